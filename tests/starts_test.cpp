@@ -20,6 +20,16 @@ using reference::completed;
 using reference::test_model;
 using reference::value;
 
+// A belt only pulls: with the pretension of its spans, not with the push that their motion would ask of rods. The first pulley's bearing carries two spans
+// of 100 N, along an outer and an inner tangent.
+TEST(Starts, ABeltWithPretensionPullsFromTheStartOn) {
+  const Trajectory run = completed(test_model("belt_with_tensioner"));
+  const double outer = std::asin((0.06 - 0.05) / 0.4), centres = std::hypot(0.2, 0.12), inner = std::atan2(-0.12, 0.2) + std::asin((0.05 - 0.03) / centres);
+  EXPECT_NEAR(value(run, 0, "joint.A.on_w1.fx[world]"), -100 * (std::cos(outer) + std::cos(inner)), 0.1);
+  EXPECT_LT(run.joints[0].peak, 230);
+  EXPECT_EQ(std::count_if(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("transient-free") != std::string::npos; }), 0);
+}
+
 // The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the cam.
 TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
   const Model model = test_model("cam_on_ball_bearing");

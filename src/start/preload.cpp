@@ -42,6 +42,24 @@ void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
   }
 }
 
+// Adds to `left` the components of laws that stand loaded, as a belt with pretension, and would have to carry the opposite, which no gap of theirs does.
+// They are loads, as large as the bodies' positions make them. Whether any was added.
+template <class S>
+bool leave_one_sided(const BasicSystem<S>& system, const BasicState<S>& unloaded, const BasicState<S>& found, VecsOf<S>& left) {
+  bool any = false;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (law.ideal_limit()) continue;
+    const BasicResponse<S> stands = respond(law, unloaded.gap[j], unloaded.gap_rate[j]), now = respond(law, found.gap[j], found.gap_rate[j]);
+    for (int k = 0; k < S::kDof; ++k) {
+      if (left[j][k] != 0 || !(stands.stiffness(k, k) > 0) || now.stiffness(k, k) > 0 || !(stands.force[k] * found.force[j][k] < 0)) continue;
+      left[j][k] = 1;
+      any = true;
+    }
+  }
+  return any;
+}
+
 template <class S>
 void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<typename S::Motion> m;
@@ -112,6 +130,8 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   forces.linearize_redundant_laws(state);
   const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
   bool fits = true;
+  VecsOf<S> left(joints, S::Vec::Zero());
+  const BasicState<S> taut = state;
   for (int pass = 0; pass < (fits ? kPreloadPasses : kRedundantPasses); ++pass) {
     const BasicState<S> before = state;
     if (pass == 0 && firm) {
@@ -121,6 +141,12 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       break;
     }
     forces.find_gaps(state);
+    if (leave_one_sided(system, unloaded, state, left)) {
+      forces.leave_to_laws(left);
+      state = taut;
+      pass = -1;  // from the beginning
+      continue;
+    }
     if (pass == 0 && firm)  // what no gap can carry, as a push in a rope, does not act
       for (int j = 0; j < system.n_joints(); ++j)
         if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
