@@ -30,6 +30,18 @@ TEST(Starts, ABeltWithPretensionPullsFromTheStartOn) {
   EXPECT_EQ(std::count_if(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("transient-free") != std::string::npos; }), 0);
 }
 
+// What a taut rope would have to push with, others carry from the start on.
+TEST(Starts, RopesThatTheLoadSlackensCarryNothing) {
+  const Trajectory bar = completed(test_model("bar_on_three_ropes"));
+  EXPECT_EQ(value(bar, 0, "joint.A.on_bar.fy[world]"), 0);
+  EXPECT_NEAR(value(bar, 0, "joint.B.on_bar.fy[world]"), 9.80665 + 1000 - 900, 1e-2);
+  EXPECT_NEAR(bar.joints[2].peak, 900, 1e-2);
+  const Trajectory belt = completed(test_model("belt_without_pretension"));
+  EXPECT_EQ(value(belt, 0, "joint.low.tension"), 0);
+  EXPECT_NEAR(value(belt, 0, "joint.up.tension"), 200, 1e-2);
+  EXPECT_NEAR(belt.joints[3].peak, 200, 1e-2);
+}
+
 // The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the cam.
 TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
   const Model model = test_model("cam_on_ball_bearing");

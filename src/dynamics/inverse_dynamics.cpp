@@ -119,6 +119,12 @@ void BasicInverseDynamics<S>::leave_to_laws(const VecsOf<S>& components) {
   for (std::size_t j = 0; j < components.size(); ++j) moved_[j] = moved_[j].cwiseProduct(S::Vec::Ones() - components[j]);
 }
 
+template <class S>
+void BasicInverseDynamics<S>::let_go(const VecsOf<S>& components) {
+  leave_to_laws(components);
+  let_go_ = components;
+}
+
 // theory/assembly Eq. (5.7): what follows its law pushes as a load does.
 template <class S>
 void BasicInverseDynamics<S>::push_by_laws(BasicState<S>& state) {
@@ -272,6 +278,8 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
     const BasicLaw<S>& law = system_.joints[j].law;
     if (linearized_[j] && resists(law, respond(law, r_[j].gap, rate))) newton_step_to_force(law, state.force[j], rate, moved_.empty() ? typename S::Vec(S::Vec::Ones()) : moved_[j], state.gap[j]);
     else carried = gap_at_force(law, state.force[j], rate, state.gap[j]) && carried;
+    for (int k = 0; !let_go_.empty() && k < S::kDof; ++k)
+      if (let_go_[j][k] != 0) state.gap[j][k] = r_[j].gap[k];
   }
   return carried;
 }
@@ -297,7 +305,8 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   if (firm) holding.emplace(*firm);
   BasicGapProjector<S>& projector = holding ? *holding : projector_;
   const double mu = kHeldAbove * slowest_joint(system_, r_);
-  const VecsOf<S> held = held_components(system_);
+  VecsOf<S> held = held_components(system_);
+  for (std::size_t j = 0; j < let_go_.size(); ++j) held[j] = held[j].cwiseProduct(S::Vec::Ones() - let_go_[j]);
   if (!std::isfinite(mu) || !projector.prepare(r_, mu, state.gap, state.gap_rate, &held)) return;
   VecsOf<S> gap = state.gap;
   for (const int j : apart_now) gap[j] = r_[j].gap;

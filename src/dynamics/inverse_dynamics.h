@@ -51,6 +51,8 @@ class BasicInverseDynamics {
   /// The components (1, others 0) that `find` leaves to their laws: their forces are those of the gaps and rates that the
   /// bodies have, and their gaps accelerate as they may.
   void leave_to_laws(const VecsOf<S>& components);
+  /// The same, and `move_onto_gaps` takes these gaps as the other joints' make them.
+  void let_go(const VecsOf<S>& components);
 
   /// Accelerations and joint forces at state.q, state.v for which the gaps accelerate as state.gap_accel says; what no
   /// motion can close stays as state.force has it. False when there is no stiff joint or the equations are singular.
@@ -98,6 +100,7 @@ class BasicInverseDynamics {
   std::vector<int> rubbing_;      // joints with friction
   std::vector<bool> linearized_;  // joints whose gaps are found by one step with the tangent
   VecsOf<S> rest_rate_;           // with which the states of friction are at rest, where they are kept
+  VecsOf<S> let_go_;              // 1 in components that move_onto_gaps does not hold; empty: it holds what the joints do
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_, last_force_, no_load_, accelerated_, accelerating_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;

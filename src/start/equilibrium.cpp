@@ -28,7 +28,8 @@ using S = Planar;
 
 constexpr double kTolerance = 1e-5;               // of the creep's steps: where it ends does not depend on the way
 constexpr double kAtRest = 1e-11;                 // of the largest force: what is left unbalanced where a body counts as resting, where rounding leaves less
-constexpr int kSwings = 100;                      // steps in which what is unbalanced does not fall by half: the mechanism swings, or has come as near as rounding lets it
+constexpr int kSwings = 100;                      // steps in which what is unbalanced does not fall by half, nor time grows to kLonger: the mechanism swings, or has come as near as rounding lets it
+constexpr double kLonger = 4;                     // times the time of kSwings steps before: steps grow, as where a weight sinks steadily
 constexpr double kThicker = 4;                    // rate of the next fluid over that of one in which the mechanism swings
 constexpr double kFirstStep = 1e-3;               // over the time of the creep
 constexpr double kLongest = 1e6;                  // times that of the creep: a mechanism that still moves then has no position of rest
@@ -171,7 +172,7 @@ class Creep {
     state.t = 0;
     stepper.start(state, kFirstStep / rate_);
     const double longest = kLongest * rate_ / (first_rate_ * first_rate_), rounding = rounding_of(system_, assembled_);
-    double least = std::numeric_limits<double>::infinity(), halved = least;
+    double least = std::numeric_limits<double>::infinity(), halved = least, mark = 0;
     State calmest;
     const auto rests = [&] {
       if (least > rounding) return false;
@@ -191,8 +192,9 @@ class Creep {
         if (rests()) return true;
         throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
       }
-      if (unrest > 0.5 * halved) continue;
-      halved = unrest;
+      if (unrest > 0.5 * halved && !(state.t > kLonger * mark)) continue;
+      halved = std::min(unrest, halved);
+      mark = state.t;
       since = 0;
     }
     return rests();

@@ -42,22 +42,23 @@ void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
   }
 }
 
-// Adds to `left` the components of laws that stand loaded, as a belt with pretension, and would have to carry the opposite, which no gap of theirs does.
-// They are loads, as large as the bodies' positions make them. Whether any was added.
+// Adds to `left` the component, if there is one, of a taut rope or belt that the forces found ask to push the most: no gap of its does. It is a load then, as
+// large as the bodies' positions make it. Whether there is one.
 template <class S>
-bool leave_one_sided(const BasicSystem<S>& system, const BasicState<S>& unloaded, const BasicState<S>& found, VecsOf<S>& left) {
-  bool any = false;
+bool leave_one_sided(const BasicSystem<S>& system, const BasicState<S>& taut, const BasicState<S>& found, VecsOf<S>& left) {
+  double most = kFits * largest_force(found.force), *most_asked = nullptr;
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
-    if (law.ideal_limit()) continue;
-    const BasicResponse<S> stands = respond(law, unloaded.gap[j], unloaded.gap_rate[j]), now = respond(law, found.gap[j], found.gap_rate[j]);
+    if (law.ideal_limit() || !law.starts_free()) continue;
+    const BasicResponse<S> stands = respond(law, taut.gap[j], taut.gap_rate[j]), now = respond(law, found.gap[j], found.gap_rate[j]);
     for (int k = 0; k < S::kDof; ++k) {
-      if (left[j][k] != 0 || !(stands.stiffness(k, k) > 0) || now.stiffness(k, k) > 0 || !(stands.force[k] * found.force[j][k] < 0)) continue;
-      left[j][k] = 1;
-      any = true;
+      if (left[j][k] != 0 || !(stands.stiffness(k, k) > 0) || now.stiffness(k, k) > 0 || std::abs(found.force[j][k]) <= most) continue;
+      most = std::abs(found.force[j][k]);
+      most_asked = &left[j][k];
     }
   }
-  return any;
+  if (most_asked != nullptr) *most_asked = 1;
+  return most_asked != nullptr;
 }
 
 template <class S>
@@ -141,8 +142,8 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       break;
     }
     forces.find_gaps(state);
-    if (leave_one_sided(system, unloaded, state, left)) {
-      forces.leave_to_laws(left);
+    if (leave_one_sided(system, taut, state, left)) {
+      forces.let_go(left);
       state = taut;
       pass = -1;  // from the beginning
       continue;
