@@ -78,6 +78,7 @@ class StepControl {
   static constexpr std::uint64_t kStepsBetween = 10;  // of two events of one function, at most, that count as in a row. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
   static constexpr int kMostSame = 8;                 // in a row, after which the next ones are met only if they matter
   static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
+  static constexpr double kLeastSeen = 0.01;      // of a step that is shortened to one bend or kink: what Newton's iteration found may lie anywhere, and a narrow bend is found in a few trials
   static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
   static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
   static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
@@ -244,7 +245,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     }
     if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < 1) {
       ++counters.rejected;
-      h *= seen;
+      h *= std::max(seen, kLeastSeen);
       up_to_event = false;
       continue;
     }

@@ -91,6 +91,7 @@ struct StickSlip {
     }
     if (!rebounds(state)) state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
     state[1] = 0;
+    if (std::abs(held(v, state)) > kSurely * static_coefficient * N + rounding_at_rest()) state[1] = v > 0 ? 1 : -1;  // what presses has gone before they stick
   }
 
  private:
@@ -98,6 +99,7 @@ struct StickSlip {
   double rounding_at_rest() const { return std::numeric_limits<double>::min() + 4 * std::numeric_limits<double>::epsilon() * kStill * damping; }
   static bool rebounds(const double* state) { return std::abs(state[1]) > 1.5; }
   static double direction(const double* state) { return state[1] > 0 ? 1 : -1; }
+  static constexpr double kSurely = 1 + 1e-9;  // of what they can carry: above it, it is no rounding
   static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
 
   template <class T>
