@@ -272,6 +272,10 @@ template <class S>
 bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
   bool carried = true;
   for (int j = 0; j < system_.n_joints(); ++j) {
+    if (system_.joints[j].constrained) {
+      state.gap[j].setZero();
+      continue;
+    }
     typename S::Vec rate = state.gap_rate[j];
     for (int k = 0; k < S::kDof; ++k)
       if (system_.joints[j].free_mask[k] != 0 && !r_.empty()) rate[k] = r_[j].rate[k];

@@ -46,7 +46,7 @@ std::vector<int> dependent_rows(const System& system, const std::vector<Constrai
 }  // namespace
 
 System make_ideal(System system) {
-  for (JointData& joint : system.joints) joint.ideal = joint.law.ideal_limit() && !joint.law.feeds();
+  for (JointData& joint : system.joints) joint.ideal = joint.constrained = joint.law.ideal_limit() && !joint.law.feeds();
   return system;
 }
 

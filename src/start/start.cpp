@@ -32,8 +32,9 @@ void demand_no_states(const System& system) {
       throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not follow what its law remembers, such as a touch and its speed: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\" (in compare: --against relative), which keeps the joints of a tree ideal.", joint.name));
 }
 
-// Ideal joints carry no preload: the loops are closed as they are.
-Assembly ideal_start(Model model) {
+// Ideal joints carry no preload: the loops are closed as they are. Joints that stay force laws begin with the deflections that carry their loads.
+Assembly ideal_start(Model model, double known_span) {
+  const bool loaded = is_preloaded(model.simulate.start);
   if (model.simulate.start == Start::kAssembled) model.simulate.start = Start::kUnloaded;
   demand_no_states(make_ideal(build_system(model)));  // no position would help
   Assembly assembly = assemble(model);
@@ -41,6 +42,15 @@ Assembly ideal_start(Model model) {
   assembly.system = std::move(rows.system);
   assembly.notes.insert(assembly.notes.end(), rows.notes.begin(), rows.notes.end());
   assembly.not_unique = std::move(rows.not_unique);
+  const System& system = assembly.system;
+  std::vector<int> laws;
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (!system.joints[j].ideal && !system.joints[j].law.engaged_stiffness().isZero(0)) laws.push_back(j);
+  if (laws.empty()) return assembly;
+  assembly.notes.push_back("joints that stay force laws beside the ideal ones: " + names_of_joints(system, laws));
+  if (!loaded) return assembly;
+  start_forces(assembly.system, true, assembly.state);
+  settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
   return assembly;
 }
 
@@ -159,7 +169,7 @@ void note_conflicting_motors(const System& system, const Vecs& q, std::vector<st
 
 Assembly start_as_asked(const Model& model, double known_span) {
   if (has_constraints(model.simulate.equations)) {
-    Assembly assembly = ideal_start(model);
+    Assembly assembly = ideal_start(model, known_span);
     const System& system = assembly.system;
     note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
     for (const JointData& joint : system.joints)

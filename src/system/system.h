@@ -69,6 +69,7 @@ struct BasicJointData {
   std::shared_ptr<const EdgeProfile> edge{};  // that of an edge
   BasicLaw<S> law;
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
+  bool constrained = false;    // an ideal joint of constraint equations: a start finds no deflection for it
   std::array<bool, S::kDof> redundant{};  // components of an ideal joint that other ideal joints keep already
   int servo = -1;              // component that a servo drives, -1: not a servo
   int driven = -1;             // component whose gap is what is left of it after `target`: a servo's, or the length of a rod or rope; -1: none
