@@ -26,5 +26,20 @@ TEST(FrictionRebound, ACartThatSettlesOnItsTyresIsNotDriven) {
   for (std::size_t row = 0; row < run.n_rows(); ++row) ASSERT_LT(std::abs(reference::value(run, row, "joint.rr.slip")), 0.3) << run.at(row, 0);
 }
 
+// Its friction is that of the teeth that touch: with springs that had stuck where none does, the motor gave 1700 N m.
+TEST(FrictionRebound, TeethThatDoNotTouchDoNotStick) {
+  const Trajectory run = reference::completed(reference::test_model("rack_with_play_that_rubs"));
+  for (std::size_t row = 0; row < run.n_rows(); ++row)
+    ASSERT_LE(std::abs(reference::value(run, row, "joint.rack.friction")), 0.15 * 2.4e-3 * reference::value(run, row, "joint.rack.normal_force") + 1e-9) << run.at(row, 0);
+  EXPECT_NEAR(std::abs(run.motors[0].peak_effort), 4.12, 0.05);
+}
+
+// A trial step that goes astray passes the bends of its detent a million times: that says nothing of where the first one is.
+TEST(FrictionRebound, ABladeComesToRestBesideItsDetent) {
+  const Trajectory run = reference::completed(reference::test_model("garden_shears"));
+  EXPECT_EQ(reference::value(run, run.n_rows() - 1, "joint.O.stuck"), 1);
+  EXPECT_NEAR(reference::value(run, run.n_rows() - 1, "joint.O.angle"), -std::acos(-1) / 6, 2e-3);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 
 #include "pintle/read_model.h"
@@ -273,6 +274,20 @@ TEST(Ideal, CompressorIsThatOfStiffJoints) {
 
 TEST(Ideal, OtherMethodsAreRefusedWhereTheyStand) {
   EXPECT_THROW(reference::mechanism("four_bar", {"simulate.equations=\"ideal\"", "simulate.method=\"radau\""}), InputError);
+}
+
+// Bushings and bearings stay force laws beside ideal joints: they begin with the deflections that carry their loads, and the run says which they are.
+TEST(Ideal, LawsThatStayBeginLoaded) {
+  Model beam = reference::test_model("beam_on_three_bushings"), rotor = reference::test_model("rotor_on_balls");
+  beam.simulate.equations = rotor.simulate.equations = Equations::kIdeal;
+  const Trajectory still = reference::completed(beam), turning = reference::completed(rotor);
+  const std::array<double, 3> carried{222.360, 549.360, 209.280};  // by hand: two equations of equilibrium, and deflections on one line
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_NEAR(still.joints[j].peak, carried[j], 1e-3);
+    EXPECT_NEAR(reference::value(still, 0, "joint." + still.joints[j].name + ".on_beam.fy[world]"), carried[j], 1e-3);
+  }
+  EXPECT_NEAR(turning.joints[0].peak, 98.1 + 50, 0.2);
+  EXPECT_NE(turning.notes.front().find("joints that stay force laws beside the ideal ones: brg"), std::string::npos) << turning.notes.front();
 }
 
 // A contact damps by the speed at which it was touched, which these equations do not keep: no result instead of a wrong one.

@@ -223,6 +223,18 @@ TEST(Stops, OfIdealJointsAreLostAndSaidToBe) {
   EXPECT_TRUE(says(completed(model)));
 }
 
+// As deep as carries its load, from the start on: 30 g L/2 + 500 N L.
+TEST(Stops, WhatBeginsAtAStopIsCarriedByIt) {
+  const Trajectory run = completed(reference::test_model("lever_on_its_stop"));
+  const double load = 30 * 9.80665 + 500, moment = 30 * 9.80665 * 0.5 + 500;
+  EXPECT_NEAR(reference::value(run, 0, "joint.O.on_lever.fy[world]"), load, 1e-2);
+  EXPECT_NEAR(reference::value(run, 0, "joint.O.stop_moment"), moment, 1e-2);
+  EXPECT_NEAR(run.joints[0].peak, load, 1e-2);
+  EXPECT_TRUE(run.notes.empty()) << run.notes.front();
+  const Trajectory lifted = completed(reference::test_model("lever_on_its_stop", {"force.l.force=[0, 500]"}));
+  EXPECT_EQ(reference::value(lifted, 0, "joint.O.stop_moment"), 0);
+}
+
 TEST(Stops, AStartBeyondThemIsRefused) {
   const auto message = [](const Model& model) -> std::string {
     try {

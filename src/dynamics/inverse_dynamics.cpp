@@ -91,7 +91,7 @@ BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : sy
   bool any_drags = false;
   for (int j = 0; j < system.n_joints(); ++j) {
     const bool drag = drags(system.joints[j]) || system.joints[j].law.rubs_where_it_holds();
-    if (drag || system.joints[j].law.rubs()) rubbing_.push_back(j);
+    if (drag || system.joints[j].law.rubs() || system.joints[j].law.has_stops()) rubbing_.push_back(j);
     for (int k = 0; drag && k < S::kDof; ++k)
       if (system.joints[j].free_mask[k] != 0) held[j][k] = 0;
     any_drags = any_drags || drag;
@@ -145,7 +145,7 @@ void BasicInverseDynamics<S>::keep_states_of(const BasicState<S>& start) {
   for (const BasicJointKinematics<S>& r : r_) rest_rate_.push_back(r.rate);
 }
 
-// Friction pushes as a load does, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
+// Friction and stops push as loads do, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
 template <class S>
 void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
   for (const int j : rubbing_) {

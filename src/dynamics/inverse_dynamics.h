@@ -97,7 +97,7 @@ class BasicInverseDynamics {
   BasicGapProjector<S> projector_;
   std::vector<typename S::Motion> m_;
   std::vector<BasicJointKinematics<S>> r_;
-  std::vector<int> rubbing_;      // joints with friction
+  std::vector<int> rubbing_;      // joints with friction or stops
   std::vector<bool> linearized_;  // joints whose gaps are found by one step with the tangent
   VecsOf<S> rest_rate_;           // with which the states of friction are at rest, where they are kept
   VecsOf<S> let_go_;              // 1 in components that move_onto_gaps does not hold; empty: it holds what the joints do

@@ -334,6 +334,14 @@ typename S::Vec BasicLaw<S>::open_contact_stiffness(const Point& at) const {
 }
 
 template <class S>
+BasicLaw<S> BasicLaw<S>::without_stops() const {
+  BasicLaw out(linear_);
+  for (const auto& part : parts_)
+    if (!part->stops()) out.add(part->clone());
+  return out;
+}
+
+template <class S>
 double BasicLaw<S>::lever() const {
   double lever = 0;
   for (const auto& part : parts_) lever = std::max(lever, part->lever());

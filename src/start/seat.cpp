@@ -140,6 +140,12 @@ std::string names_of_joints(const System& system, const std::vector<int>& joints
 
 std::string names_of_joints_in_play(const System& system) { return names_of_joints(system, joints_in_play(system)); }
 
+std::string names_of_joints_in_play(const System& system, const State& state) {
+  std::vector<int> loose = joints_in_play(system);
+  std::erase_if(loose, [&](int j) { return !is_in_play(system.joints[j].law, state.gap[j], state.gap_rate[j]); });
+  return names_of_joints(system, loose);
+}
+
 std::string seat_joints(const System& system, State& state) {
   std::vector<int> loose = joints_in_play(system), left;  // in the middle
   while (!loose.empty()) {

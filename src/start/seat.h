@@ -20,6 +20,8 @@ std::string names_of_joints(const System& system, const std::vector<int>& joints
 
 /// Their names, with commas between; "" where there are none.
 std::string names_of_joints_in_play(const System& system);
+/// Of these the ones that do not answer where the state has them.
+std::string names_of_joints_in_play(const System& system, const State& state);
 
 /// `seat_joints` of what has been assembled, with a note.
 void note_seated(Assembly& assembly);

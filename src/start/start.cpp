@@ -47,7 +47,7 @@ Assembly ideal_start(Model model, double known_span) {
   for (int j = 0; j < system.n_joints(); ++j)
     if (!system.joints[j].ideal && !system.joints[j].law.engaged_stiffness().isZero(0)) laws.push_back(j);
   if (laws.empty()) return assembly;
-  assembly.notes.push_back("joints that stay force laws beside the ideal ones: " + names_of_joints(system, laws));
+  assembly.notes.push_back("joints that stay force laws beside the ideal ones: " + names_of_joints(system, laws) + "; stiff or strongly damped ones take many steps with these equations");
   if (!loaded) return assembly;
   start_forces(assembly.system, true, assembly.state);
   settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
@@ -85,13 +85,13 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   Assembly assembly = assemble_unloaded(model, std::move(system));
   const bool loaded = is_preloaded(model.simulate.start);
   const Vecs assembled = assembly.state.q;
-  if (const std::string loose = model.simulate.start == Start::kAssembled ? names_of_joints_in_play(assembly.system) : ""; !loose.empty())
-    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike the sides of it first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
   if (model.simulate.start == Start::kSeated) note_seated(assembly);
   if (loaded) press_touching_surfaces(assembly);
   std::optional<BasicSettledStart<Planar>> unloaded;
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);
+  if (const std::string loose = model.simulate.start == Start::kAssembled ? names_of_joints_in_play(assembly.system, assembly.state) : ""; !loose.empty())
+    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike the sides of it first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
   if (!loaded || assembly.system.joints.empty()) return assembly;
   const double duration = model.simulate.duration;
   if (unloaded) assembly.system = settle_with_stiction(std::move(assembly.system), *unloaded, duration, known_span, assembly);

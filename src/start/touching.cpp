@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,8 +23,9 @@ constexpr double kMostAjar = 1e-4;  // of the mechanism: what soft joints let go
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
   int joint, k;
-  double sign, stiffness;  // [N/m], under the loads of the start
+  double sign, stiffness;  // [N/m] or [N*m/rad], under the loads of the start
   S::Vec gap;              // where they touch
+  bool is_stop;            // of what the joint leaves free
 };
 
 S::Vec gap_at(const Touch& touch, double depth) {
@@ -34,9 +36,18 @@ S::Vec gap_at(const Touch& touch, double depth) {
 
 double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * force[touch.k]; }
 
+// At rest.
+double pressing_at(const BasicLaw<S>& law, const Touch& touch, double depth) {
+  const S::Vec gap = gap_at(touch, depth), still = S::Vec::Zero();
+  if (!touch.is_stop) return pressing(touch, respond(law, gap, still).force);
+  double states[kMostLawStates];
+  law.rest({0, gap, still, states}, states);
+  return pressing(touch, law.force({0, gap, still, states}));
+}
+
 // By bisection, which no power of the depth disturbs.
 double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
-  const auto missing = [&](double depth) { return force - pressing(touch, respond(law, gap_at(touch, depth), S::Vec(S::Vec::Zero())).force); };
+  const auto missing = [&](double depth) { return force - pressing_at(law, touch, depth); };
   double low = 0, high = ContactForce::kUsualDepth;
   for (int i = 0; i < 60 && missing(high) > 0; ++i) high *= 2;
   for (int i = 0; i < 60; ++i) {
@@ -55,44 +66,57 @@ double sum_of_loads(const System& system, const State& state) {
   return sum;
 }
 
-// A contact that is hardly touched is soft: it counts with the stiffness that it has under `load`.
-std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest, double load) {
+// How deep surfaces, or a coordinate and its stop, are in each other at most; of a stop that is not reached, minus infinity.
+double depth_in(const BasicLaw<S>& law, const S::Vec& gap) {
+  const std::optional<StopBreach> breach = law.breach(gap);
+  return std::max(law.penetration(gap), breach ? breach->depth : -std::numeric_limits<double>::infinity());
+}
+
+// A contact that is hardly touched is soft: it counts with the stiffness that it has under `load`, at a lever of `length` where it holds an angle.
+std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest, double load, double length) {
   const BasicLaw<S>& law = system.joints[j].law;
-  if (law.ideal_limit() || law.feeds()) return std::nullopt;
-  const double depth = law.penetration(r.gap);
-  if (!(std::abs(depth) <= within)) return std::nullopt;
-  for (int k = 0; k < S::kDim; ++k)
+  if ((law.ideal_limit() && !law.has_stops()) || law.feeds()) return std::nullopt;
+  constexpr double kProbe = ContactForce::kUsualDepth, kSlope = 1e-3;  // [m] or [rad]; of a depth, over which a stiffness is a difference
+  for (int k = 0; k < S::kDof; ++k)
     for (const double sign : {1.0, -1.0}) {
-      Touch touch{j, k, sign, 0, r.gap};
-      const S::Vec gap = gap_at(touch, ContactForce::kUsualDepth);
-      if (!(law.penetration(gap) - depth > 0.5 * ContactForce::kUsualDepth)) continue;
-      const double pressed = load > 0 ? std::max(depth_at(law, touch, load), ContactForce::kUsualDepth) : ContactForce::kUsualDepth;
-      touch.stiffness = respond(law, gap_at(touch, pressed), S::Vec(S::Vec::Zero())).stiffness(k, k);
-      if (touch.stiffness > 0 && std::abs(r.rate[k]) <= at_rest) return touch;
+      Touch touch{j, k, sign, 0, r.gap, system.joints[j].free_mask[k] != 0};
+      const double lever = k < S::kDim ? 1 : length, deep = depth_in(law, gap_at(touch, kProbe)), depth = std::max(depth_in(law, r.gap), deep - kProbe);
+      if (!(std::abs(depth) * lever <= within) || !(deep - depth > 0.5 * kProbe)) continue;
+      const double pressed = load > 0 ? std::max(depth_at(law, touch, load * lever), kProbe) : kProbe;
+      touch.stiffness = (pressing_at(law, touch, pressed + kSlope * pressed) - pressing_at(law, touch, pressed)) / (kSlope * pressed);
+      if (touch.stiffness > 0 && std::abs(r.rate[k]) * lever <= at_rest) return touch;
     }
   return std::nullopt;
 }
 
 std::vector<Touch> find_touches(const System& system, const State& state) {
-  const double within = kAsStated * characteristic_length(system, state.q), at_rest = kFits * system.largest_speed(state.v);
+  const double length = characteristic_length(system, state.q), within = kAsStated * length, at_rest = kFits * system.largest_speed(state.v);
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, state.t, state.q, state.v, m, r);
   const double load = sum_of_loads(system, state);
   std::vector<Touch> touches;
   for (int j = 0; j < system.n_joints(); ++j)
-    if (const std::optional<Touch> touch = find_touch(system, j, r[j], within, at_rest, load)) touches.push_back(*touch);
+    if (const std::optional<Touch> touch = find_touch(system, j, r[j], within, at_rest, load, length)) touches.push_back(*touch);
   return touches;
 }
 
-// Springs in place of the contacts, which push and pull about where they touch.
+// Springs in place of the contacts and stops, which push and pull about where they touch.
 System with_springs(const System& system, const std::vector<Touch>& touches) {
   System firm = system;
   for (const Touch& touch : touches) {
+    JointData& joint = firm.joints[touch.joint];
     BushingLaw spring;
     spring.K(touch.k, touch.k) = touch.stiffness;
     spring.offset = touch.gap;
-    firm.joints[touch.joint].law = BasicLaw<S>(spring);
+    if (touch.is_stop) {
+      joint.law = joint.law.without_stops();
+      joint.law.add(BasicLaw<S>(spring).parts().front()->clone());
+    } else {
+      joint.law = BasicLaw<S>(spring);
+    }
+    joint.held[touch.k] = true;
+    joint.free_mask[touch.k] = 0;
   }
   return firm;
 }
@@ -138,7 +162,7 @@ std::vector<int> press_touching_surfaces(const System& system, State& state) {
     carried = state;
     start_forces(system, false, carried);
   }
-  for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -ajar);
+  for (const Touch& touch : all) carried.gap[touch.joint][touch.k] = gap_at(touch, -ajar)[touch.k];
   for (const Touch& touch : touches)
     carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
   BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
@@ -149,7 +173,8 @@ std::vector<int> press_touching_surfaces(const System& system, State& state) {
 
 void press_touching_surfaces(Assembly& assembly) {
   const System& system = assembly.system;
-  const std::vector<int> idle = press_touching_surfaces(system, assembly.state);
+  std::vector<int> idle = press_touching_surfaces(system, assembly.state);
+  std::erase_if(idle, [&system](int j) { return system.joints[static_cast<std::size_t>(j)].law.has_stops(); });  // as of a cylinder that begins to move out
   if (idle.empty()) return;
   std::string note = "surfaces that touch at the start without pressing on each other: " + names_of_joints(system, idle);
   if (std::any_of(idle.begin(), idle.end(), [&system](int j) { return system.joints[static_cast<std::size_t>(j)].type != "cam"; }))

@@ -1,6 +1,7 @@
 // Friction laws: values by hand, what presses, what is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -120,6 +121,17 @@ TEST(StickSlip, AFrictionThatBreaksOnTheWayBackRebounds) {
   surfaces.cross(1, back, N, state);
   EXPECT_TRUE(StickSlip::sticks(state));
   EXPECT_EQ(state[0], 59.9e-6);
+}
+
+// Where nothing presses they do not hold again: stuck beyond what they carry, no border would ever let them go.
+TEST(StickSlip, WhatReboundsUnderNoLoadSlipsOn) {
+  const StickSlip surfaces{0.1, 0.15, 0, 1e8, 3e3};
+  double state[StickSlip::kStates] = {-1.08e-11, -2}, border[StickSlip::kBorders];
+  surfaces.cross(1, 1.08e-8, 0, state);
+  EXPECT_FALSE(StickSlip::sticks(state));
+  EXPECT_EQ(surfaces.force(1.0, 0.0, state).friction, 0);
+  surfaces.borders(1.08e-8, 0, state, border);
+  EXPECT_GT(*std::min_element(border, border + StickSlip::kBorders), 0);
 }
 
 // It may turn forward before that, and slips as any other.
