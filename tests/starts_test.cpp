@@ -25,7 +25,7 @@ using reference::value;
 TEST(Starts, ABeltWithPretensionPullsFromTheStartOn) {
   const Trajectory run = completed(test_model("belt_with_tensioner"));
   const double outer = std::asin((0.06 - 0.05) / 0.4), centres = std::hypot(0.2, 0.12), inner = std::atan2(-0.12, 0.2) + std::asin((0.05 - 0.03) / centres);
-  EXPECT_NEAR(value(run, 0, "joint.A.on_w1.fx[world]"), -100 * (std::cos(outer) + std::cos(inner)), 0.1);
+  EXPECT_NEAR(value(run, 0, "joint.A.on_w1.fx[world]"), -100 * (std::cos(outer) + std::cos(inner)), 1.5);  // the bearings give way by 2 um each
   EXPECT_LT(run.joints[0].peak, 230);
   EXPECT_EQ(std::count_if(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("transient-free") != std::string::npos; }), 0);
 }
@@ -178,7 +178,7 @@ TEST(Starts, AContactThatAStopKeepsOpenStartsApart) {
     Model model = test_model("valve_with_lash");
     model.simulate.start = start;
     const Trajectory run = completed(model);
-    EXPECT_NEAR(value(run, 0, "joint.guide.slide"), 0, 1e-9);
+    EXPECT_NEAR(value(run, 0, "joint.guide.slide"), 0, start == Start::kAssembled || start == Start::kSeated ? 1e-5 : 1e-9);  // pressed onto its stop by its spring
     EXPECT_EQ(value(run, 0, "joint.cam.contact_force"), 0);
     EXPECT_NEAR(run.joints.at(1).peak, 2350, 2) << run.joints.at(1).name;  // where it closes, at 34.5 ms
     const bool noted = std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("bodies that touch in cam start apart") != std::string::npos; });

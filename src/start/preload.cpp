@@ -42,23 +42,31 @@ void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
   }
 }
 
-// Adds to `left` the component, if there is one, of a taut rope or belt that the forces found ask to push the most: no gap of its does. It is a load then, as
-// large as the bodies' positions make it. Whether there is one.
+// Adds to `left` components of taut ropes and belts that the forces found ask to push, which no gap of theirs does: all that have pretension, and of the others
+// the one that is asked for the most. They are loads then, as large as the bodies' positions make them. Whether there are any.
 template <class S>
 bool leave_one_sided(const BasicSystem<S>& system, const BasicState<S>& taut, const BasicState<S>& found, VecsOf<S>& left) {
-  double most = kFits * largest_force(found.force), *most_asked = nullptr;
+  const double nothing = kFits * largest_force(found.force);
+  double most = nothing, *most_asked = nullptr;
+  bool any = false;
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
     if (law.ideal_limit() || !law.starts_free()) continue;
     const BasicResponse<S> stands = respond(law, taut.gap[j], taut.gap_rate[j]), now = respond(law, found.gap[j], found.gap_rate[j]);
     for (int k = 0; k < S::kDof; ++k) {
-      if (left[j][k] != 0 || !(stands.stiffness(k, k) > 0) || now.stiffness(k, k) > 0 || std::abs(found.force[j][k]) <= most) continue;
-      most = std::abs(found.force[j][k]);
-      most_asked = &left[j][k];
+      const double asked = std::abs(found.force[j][k]);
+      if (left[j][k] != 0 || !(stands.stiffness(k, k) > 0) || now.stiffness(k, k) > 0 || !(asked > nothing)) continue;
+      if (std::abs(stands.force[k]) > nothing) {
+        left[j][k] = 1;
+        any = true;
+      } else if (asked > most) {
+        most = asked;
+        most_asked = &left[j][k];
+      }
     }
   }
   if (most_asked != nullptr) *most_asked = 1;
-  return most_asked != nullptr;
+  return any || most_asked != nullptr;
 }
 
 template <class S>

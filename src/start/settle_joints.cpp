@@ -188,7 +188,14 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   const BasicTimeScales<S> time_scales = measure_time_scales(system, state, span);
   start.effective_mass = time_scales.effective_mass;
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
-  start.settled_over = settle_fast_joints(system, all_fast(system), slowest_fast_rate(time_scales), smooth_span(system, state, duration), true, state);
+  const BasicTimeScales<S> fast = all_fast(system);
+  const BasicState<S> given = state;
+  start.settled_over = settle_fast_joints(system, fast, slowest_fast_rate(time_scales), smooth_span(system, state, duration), true, state);
+  if (start.settled_over == 0 && span > 0) {  // where next to nothing acts yet, the steps of a rough integration are those of rounding
+    BasicState<S> slower = given;
+    start.settled_over = settle_fast_joints(system, fast, slowest_fast_rate(time_scales), std::min(span, duration), false, slower);
+    if (start.settled_over > 0) state = std::move(slower);
+  }
   if (start.settled_over == 0) note_not_settled(system, state, start.notes);
 }
 

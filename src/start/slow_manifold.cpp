@@ -124,19 +124,23 @@ class BasicSlowManifold {
     return most / std::max(largest_force(force_[0]), 1e-300);
   }
 
-  // Share of the forces' curves that the last two of their Chebyshev coefficients make up.
+  // Share of the forces' curves that the last two of their Chebyshev coefficients make up; of the couples' where no joint carries a force.
   double unresolved() const {
-    double tail = 0, size = 1e-300;
-    for (std::size_t j = 0; j < system_.joints.size(); ++j)
-      for (const int end : {kNodes - 1, kNodes - 2}) {
-        typename S::Vec sum = S::Vec::Zero();
-        for (int n = 0; n < kNodes; ++n) {
-          sum += chebyshev_weight(kNodes, end, n) * force_[n][j];
-          size = std::max(size, force_[n][j].template head<S::kDim>().norm());
+    const auto part = [&](const auto& part_of) {
+      double tail = 0, size = 1e-300;
+      for (std::size_t j = 0; j < system_.joints.size(); ++j)
+        for (const int end : {kNodes - 1, kNodes - 2}) {
+          typename S::Vec sum = S::Vec::Zero();
+          for (int n = 0; n < kNodes; ++n) {
+            sum += chebyshev_weight(kNodes, end, n) * force_[n][j];
+            size = std::max(size, part_of(force_[n][j]).norm());
+          }
+          tail = std::max(tail, 2.0 / (kNodes - 1) * part_of(sum).norm());
         }
-        tail = std::max(tail, 2.0 / (kNodes - 1) * sum.template head<S::kDim>().norm());
-      }
-    return tail / size;
+      return tail / size;
+    };
+    const bool any_force = std::any_of(force_.begin(), force_.end(), [](const VecsOf<S>& force) { return largest_force(force) > 0; });
+    return any_force ? part([](const typename S::Vec& f) { return f.template head<S::kDim>(); }) : part([](const typename S::Vec& f) { return f.template tail<S::kDof - S::kDim>(); });
   }
 
   const VecsOf<S>& gap(int node) const { return gap_[node]; }
