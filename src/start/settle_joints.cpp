@@ -30,12 +30,14 @@ constexpr double kEntirely = 0.99;                    // of its slow motion: wit
 
 constexpr const char* kNotSettled = "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated errors do not include this";
 
-// Half a step that a rough integration takes. Rounded to a part of the duration, so that it does not change with every slight change of the
+// Half a step that a rough integration takes; at least the time in which the slowest joint vibrates, as far as the motion is smooth that long: over less,
+// rates and accelerations of gaps are rounding. Rounded to a part of the duration, so that it does not change with every slight change of the
 // model: where a joint is as slow as the motion, what is called its slow motion depends on the span.
 template <class S>
-double smooth_span(const BasicSystem<S>& system, const BasicState<S>& start, double duration) {
+double smooth_span(const BasicSystem<S>& system, const BasicState<S>& start, double duration, double slowest, double span_of_motion) {
   const double half = 0.5 * natural_step<BasicRadauStepper<S>>(system, start, duration);
-  return half > 0 ? duration * std::exp2(std::floor(std::log2(half / duration))) : 0;
+  const double smooth = std::max(half, std::min({1 / slowest, span_of_motion, duration}));
+  return half > 0 ? duration * std::exp2(std::floor(std::log2(smooth / duration))) : 0;
 }
 
 template <class S>
@@ -190,10 +192,11 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
   const BasicTimeScales<S> fast = all_fast(system);
   const BasicState<S> given = state;
-  start.settled_over = settle_fast_joints(system, fast, slowest_fast_rate(time_scales), smooth_span(system, state, duration), true, state);
+  const double slowest = slowest_fast_rate(time_scales);
+  start.settled_over = settle_fast_joints(system, fast, slowest, smooth_span(system, state, duration, slowest, span), true, state);
   if (start.settled_over == 0 && span > 0) {  // where next to nothing acts yet, the steps of a rough integration are those of rounding
     BasicState<S> slower = given;
-    start.settled_over = settle_fast_joints(system, fast, slowest_fast_rate(time_scales), std::min(span, duration), false, slower);
+    start.settled_over = settle_fast_joints(system, fast, slowest, std::min(span, duration), false, slower);
     if (start.settled_over > 0) state = std::move(slower);
   }
   if (start.settled_over == 0) note_not_settled(system, state, start.notes);
