@@ -117,6 +117,15 @@ KeySpec read_key(const std::string& key, const Table& table) {
   return spec;
 }
 
+// The word on a line `key = "word"` of the schema; "" where there is none.
+std::string stated_word(std::string_view text, std::string_view key) {
+  const std::string line = fmt::format("\n{} = \"", key);
+  const std::size_t at = text.find(line);
+  if (at == std::string_view::npos) return {};
+  const std::size_t begin = at + line.size();
+  return std::string(text.substr(begin, text.find('"', begin) - begin));
+}
+
 TableSpec read_table(const Table& table) {
   TableSpec spec;
   spec.path = text_of(table, "path");
@@ -210,14 +219,35 @@ const KeySpec* TableSpec::find(std::string_view key) const {
   return it == keys.end() ? nullptr : &*it;
 }
 
-Schema::Schema(const Document& document) {
-  for (const Node& table : *document.root.table()->find("table")->array()) {
-    tables_.push_back(read_table(*table.table()));
+// At every "[[table]]" one begins.
+Schema::Schema(std::string_view text) {
+  constexpr std::string_view kBegin = "\n[[table]]\n";
+  for (std::size_t at = text.find(kBegin), next; at != std::string_view::npos; at = next) {
+    next = text.find(kBegin, at + kBegin.size());
+    Stated& stated = tables_.emplace_back();
+    stated.text = text.substr(at, next == std::string_view::npos ? next : next - at);
+    stated.path = stated_word(stated.text, "path");
+    stated.when = stated_word(stated.text, "when");
   }
 }
 
+const TableSpec& Schema::Stated::table() const {
+  std::call_once(read, [this] {
+    const Document document = parse_own_toml(text, "model.schema.toml");
+    spec = read_table(*document.root.table()->find("table")->array()->front().table());
+    if (spec.path != path || spec.when != when) schema_fault("path and when are stated on lines of their own in table " + spec.path);
+  });
+  return spec;
+}
+
+std::vector<TableSpec> Schema::tables() const {
+  std::vector<TableSpec> all;
+  for (const Stated& stated : tables_) all.push_back(stated.table());
+  return all;
+}
+
 const Schema& Schema::model() {
-  static const Schema schema(parse_own_toml(kModelToml, "model.schema.toml"));
+  static const Schema schema{std::string_view(kModelToml)};
   return schema;
 }
 
@@ -225,8 +255,9 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
                            std::string_view detent) const {
   TableSpec out;
   bool found = false;
-  for (const TableSpec& table : tables_) {
-    if (table.path != path || (!table.when.empty() && table.when != when)) continue;
+  for (const Stated& stated : tables_) {
+    if (stated.path != path || (!stated.when.empty() && stated.when != when)) continue;
+    const TableSpec& table = stated.table();
     if (!found) out = table;
     if (found) out.keys.insert(out.keys.end(), table.keys.begin(), table.keys.end());
     found = true;
@@ -248,7 +279,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
 std::vector<std::string> Schema::children(std::string_view path) const {
   std::vector<std::string> keys;
   const std::string prefix = path.empty() ? std::string() : std::string(path) + ".";
-  for (const TableSpec& table : tables_) {
+  for (const Stated& table : tables_) {
     if (table.path.size() <= prefix.size() || !std::string_view(table.path).starts_with(prefix)) continue;
     const std::string rest = table.path.substr(prefix.size());
     std::string key = rest.substr(0, rest.find('.'));
@@ -259,8 +290,9 @@ std::vector<std::string> Schema::children(std::string_view path) const {
 
 std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_view key) const {
   std::vector<std::string> kinds;
-  for (const TableSpec& table : tables_) {
-    if (table.path != path) continue;
+  for (const Stated& stated : tables_) {
+    if (stated.path != path) continue;
+    const TableSpec& table = stated.table();
     if (!table.when.empty() && table.find(key) != nullptr) kinds.push_back(table.called);
     if (!table.joint_type_keys) continue;
     for (const JointTypeInfo& type : joint_type_catalog())
@@ -271,8 +303,8 @@ std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_v
 
 std::vector<std::string> Schema::tables_with(std::string_view key) const {
   std::vector<std::string> paths;
-  for (const TableSpec& table : tables_)
-    if (table.find(key) != nullptr && std::find(paths.begin(), paths.end(), table.path) == paths.end()) paths.push_back(table.path);
+  for (const Stated& table : tables_)
+    if (table.table().find(key) != nullptr && std::find(paths.begin(), paths.end(), table.path) == paths.end()) paths.push_back(table.path);
   return paths;
 }
 

@@ -1,6 +1,8 @@
 // The model format as schema/model.schema.toml and the catalogs of laws and joint types state it.
 #pragma once
 
+#include <deque>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -75,7 +77,8 @@ class Schema {
   /// The format of this program, read once.
   static const Schema& model();
 
-  const std::vector<TableSpec>& tables() const { return tables_; }
+  /// All tables, in the order of the file.
+  std::vector<TableSpec> tables() const;
 
   /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of
   /// the catalogs (of all laws when `law` is empty, else of it, of `friction`, of `stops` and of `detent`). The table must exist.
@@ -92,8 +95,18 @@ class Schema {
   std::vector<std::string> tables_with(std::string_view key) const;
 
  private:
-  explicit Schema(const Document& document);
-  std::vector<TableSpec> tables_;
+  /// A table as the file states it: what it holds is read when it is asked for. Most models use half of them.
+  struct Stated {
+    std::string path, when;
+    std::string_view text;
+    mutable std::once_flag read;
+    mutable TableSpec spec;
+
+    const TableSpec& table() const;
+  };
+
+  explicit Schema(std::string_view text);
+  std::deque<Stated> tables_;
 };
 
 /// A key of a catalog as a key of the format, in a joint of type `type`; null: in any.
