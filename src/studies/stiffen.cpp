@@ -342,6 +342,18 @@ class Procedure {
     out_.reason = before.empty() ? verdict : before + "; " + verdict;
   }
 
+  // Names of joints that stick at the end of the stiffest run.
+  std::string stuck_at_end() const {
+    constexpr std::string_view kBefore = "joint.", kAfter = ".stuck";
+    std::string names;
+    for (std::size_t i = 0; i < stiffest_.columns.size() && stiffest_.n_rows() > 0; ++i) {
+      const std::string& name = stiffest_.columns[i].name;
+      if (!name.starts_with(kBefore) || !name.ends_with(kAfter) || !(stiffest_.at(stiffest_.n_rows() - 1, i) > 0)) continue;
+      names += (names.empty() ? "" : ", ") + name.substr(kBefore.size(), name.size() - kBefore.size() - kAfter.size());
+    }
+    return names;
+  }
+
   // Why no stiffness was enough.
   void explain() {
     const StiffenStep &last = out_.steps.back(), &before = out_.steps[out_.steps.size() - 2];
@@ -361,6 +373,8 @@ class Procedure {
     if (last.change < before.change / 5)
       out_.reason += fmt::format("; the change falls as 1/stiffness: {:.0e} N/m is within {:.1g} of the limit, and the extrapolated limit below is closer", last.stiffness, last.change / (kTenfold - 1));
     else if (singular_) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
+    else if (const std::string stuck = stuck_at_end(); !stuck.empty())
+      out_.reason += fmt::format("; friction holds {} at the end, and what is carried by joints that stick depends on how they came to rest: friction = \"none\" has one limit", stuck);
     else if (changes_as_before(out_.steps.size() - 1)) out_.reason += "; the change no longer falls: check for vibration, impact or slack, or ask for fewer digits";
   }
 
