@@ -70,7 +70,6 @@ class StepControl {
 
  private:
   static constexpr int kMaxRetries = 80;          // trials of one step, at most
-  static constexpr double kShortest = 1e-11;      // of the run: the shortest step that is refused for its error
   static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed, if forces hold until then
   static constexpr int kSlow = 10;                // trials towards an event, after which they are taken for a sequence that comes nearer by a constant ratio: most come there in three
   static constexpr int kFewShort = 3;             // steps in a row that end before an event and do not come to it: places are rounded, and no shorter step comes nearer. 1 to 6 are as good; with 0 steps at the corners of a table are six times as many
@@ -285,8 +284,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (measured * tolerance < kMostRounding && is_floor(h, measured)) rounding_ = std::max(rounding_, measured);
     error = std::max(error - kAboveRounding * rounding_, 0.0);
     double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / order), kLeast, counters.steps == 0 ? kMostAtFirst : kMost);
-    // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
-    const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
+    const bool jump = error > 1 && h <= kShortestRefused * std::abs(t_end);
     if (jump) factor = kMost;
     if (error > 1 && !jump) {
       ++counters.rejected;
