@@ -91,7 +91,7 @@ BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : sy
   bool any_drags = false;
   for (int j = 0; j < system.n_joints(); ++j) {
     const bool drag = drags(system.joints[j]) || system.joints[j].law.rubs_where_it_holds();
-    if (drag || system.joints[j].law.rubs() || system.joints[j].law.has_stops()) rubbing_.push_back(j);
+    if (drag || system.joints[j].law.rubs()) rubbing_.push_back(j);
     for (int k = 0; drag && k < S::kDof; ++k)
       if (system.joints[j].free_mask[k] != 0) held[j][k] = 0;
     any_drags = any_drags || drag;
@@ -120,9 +120,10 @@ void BasicInverseDynamics<S>::leave_to_laws(const VecsOf<S>& components) {
 }
 
 template <class S>
-void BasicInverseDynamics<S>::let_go(const VecsOf<S>& components) {
+void BasicInverseDynamics<S>::let_go(const VecsOf<S>& components, const VecsOf<S>& slack) {
   leave_to_laws(components);
   let_go_ = components;
+  slack_ = slack;
 }
 
 // theory/assembly Eq. (5.7): what follows its law pushes as a load does.
@@ -145,7 +146,7 @@ void BasicInverseDynamics<S>::keep_states_of(const BasicState<S>& start) {
   for (const BasicJointKinematics<S>& r : r_) rest_rate_.push_back(r.rate);
 }
 
-// Friction and stops push as loads do, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
+// Friction, and what else acts in a free direction, pushes as a load does, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
 template <class S>
 void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
   for (const int j : rubbing_) {
@@ -294,8 +295,19 @@ std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) cons
   std::vector<int> out;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicLaw<S>& law = system_.joints[j].law;
-    if (!law.engaged_stiffness().isZero(0) && is_apart(law, r_[j].gap, r_[j].rate) && is_apart(law, state.gap[j], state.gap_rate[j])) out.push_back(j);
+    const bool slack = !slack_.empty() && !slack_[j].isZero(0);
+    if (!law.engaged_stiffness().isZero(0) && (slack || (is_apart(law, r_[j].gap, r_[j].rate) && is_apart(law, state.gap[j], state.gap_rate[j])))) out.push_back(j);
   }
+  return out;
+}
+
+// The slack components, joint and component, that are not held and carry where the bodies have come to.
+template <class S>
+std::vector<std::pair<int, int>> BasicInverseDynamics<S>::tightened(const VecsOf<S>& held) const {
+  std::vector<std::pair<int, int>> out;
+  for (std::size_t j = 0; j < slack_.size(); ++j)
+    for (int k = 0; k < S::kDof; ++k)
+      if (slack_[j][k] != 0 && held[j][k] == 0 && respond(system_.joints[j].law, r_[j].gap, typename S::Vec(S::Vec::Zero())).stiffness(k, k) > 0) out.emplace_back(static_cast<int>(j), k);
   return out;
 }
 
@@ -309,19 +321,36 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   if (firm) holding.emplace(*firm);
   BasicGapProjector<S>& projector = holding ? *holding : projector_;
   const double mu = kHeldAbove * slowest_joint(system_, r_);
-  VecsOf<S> held = held_components(system_);
+  VecsOf<S> held = held_components(system_), gap = state.gap, before;
   for (std::size_t j = 0; j < let_go_.size(); ++j) held[j] = held[j].cwiseProduct(S::Vec::Ones() - let_go_[j]);
-  if (!std::isfinite(mu) || !projector.prepare(r_, mu, state.gap, state.gap_rate, &held)) return;
-  VecsOf<S> gap = state.gap;
   for (const int j : apart_now) gap[j] = r_[j].gap;
-  for (int pass = 0; pass < kClosing; ++pass) {
-    if (pass > 0) find_kinematics(state);
-    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = gap[j] - r_[j].gap;
-    moves_.assign(state.v.size(), S::Vec::Zero());
-    projector.close(wanted_, moves_);
-    for (std::size_t i = 0; i < moves_.size(); ++i) S::move(state.q[i], moves_[i]);
+  for (const BasicJointKinematics<S>& r : r_) before.push_back(r.gap);
+  const PositionsOf<S> from = state.q;
+  const auto close = [&](const std::vector<std::pair<int, int>>& taut) {
+    VecsOf<S> holding_now = held, at = gap;
+    for (const auto& [j, k] : taut) {
+      holding_now[j][k] = 1;
+      at[j][k] = before[j][k];
+    }
+    state.q = from;
+    find_kinematics(state);
+    if (!projector.prepare(r_, mu, state.gap, state.gap_rate, &holding_now)) return std::optional<std::size_t>();
+    for (int pass = 0; pass < kClosing; ++pass) {
+      if (pass > 0) find_kinematics(state);
+      for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = at[j] - r_[j].gap;
+      moves_.assign(state.v.size(), S::Vec::Zero());
+      projector.close(wanted_, moves_);
+      for (std::size_t i = 0; i < moves_.size(); ++i) S::move(state.q[i], moves_[i]);
+    }
+    find_kinematics(state);
+    return std::optional(tightened(holding_now).size());
+  };
+  if (!std::isfinite(mu) || !close({})) return;
+  // One rope that stays as long as it is may keep all others slack; where none does, all that would tighten stay so.
+  if (const std::vector<std::pair<int, int>> taut = tightened(held); !taut.empty()) {
+    const bool one_is_enough = std::any_of(taut.begin(), taut.end(), [&](const std::pair<int, int>& one) { return close({one}) == std::optional<std::size_t>(0); });
+    if (!one_is_enough && !close(taut)) return;
   }
-  find_kinematics(state);
   VecsOf<S> dv(state.v.size(), S::Vec::Zero()), rate = state.gap_rate;
   for (const int j : apart_now) rate[j] = r_[j].rate;
   for (int pass = 0; pass < kClosing; ++pass) {

@@ -271,11 +271,7 @@ bool BasicLaw<S>::ideal_limit() const {
 
 template <class S>
 BasicResponse<S> BasicLaw<S>::holding(const typename S::Vec& gap, const typename S::Vec& rate) const {
-  if (!rubs()) return holding_of_parts(gap, rate);
-  BasicLaw<S> held(linear_);
-  for (const auto& part : parts_)
-    if (part->holds()) held.add(part->clone());
-  return respond(held, gap, rate);
+  return rubs() ? respond(of_what_holds(), gap, rate) : holding_of_parts(gap, rate);
 }
 
 // Static stiffness: that of Eq. (3.9) at mu = 0.
@@ -334,10 +330,10 @@ typename S::Vec BasicLaw<S>::open_contact_stiffness(const Point& at) const {
 }
 
 template <class S>
-BasicLaw<S> BasicLaw<S>::without_stops() const {
+BasicLaw<S> BasicLaw<S>::of_what_holds() const {
   BasicLaw out(linear_);
   for (const auto& part : parts_)
-    if (!part->stops()) out.add(part->clone());
+    if (part->holds()) out.add(part->clone());
   return out;
 }
 

@@ -55,8 +55,8 @@ class BasicLaw {
   void set_linear(const Linear& linear) { linear_ = linear; }
   /// Throws std::invalid_argument when the joint would have too many states.
   void add(std::unique_ptr<Part> part);
-  /// The law without the stops of what its joint leaves free.
-  BasicLaw without_stops() const;
+  /// What holds the joint alone: without friction, stops, detents and pressure.
+  BasicLaw of_what_holds() const;
 
   /// The springs and dampers, where there is nothing else: constant tangents, one component apart from the other. Otherwise null.
   const Linear* as_linear() const { return parts_.empty() ? &linear_ : nullptr; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "dynamics/inverse_dynamics.h"
@@ -42,32 +43,37 @@ void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
   }
 }
 
-// Adds to `left` components of taut ropes and belts that the forces found ask to push, which no gap of theirs does: all that have pretension, and of the others
-// the one that is asked for the most. They are loads then, as large as the bodies' positions make them. Whether there are any.
+// Components of taut ropes and belts that would have to push, which no gap of theirs does: they are loads, as large as the bodies' positions make them.
 template <class S>
-bool leave_one_sided(const BasicSystem<S>& system, const BasicState<S>& taut, const BasicState<S>& found, VecsOf<S>& left) {
-  const double nothing = kFits * largest_force(found.force);
-  double most = nothing, *most_asked = nullptr;
-  bool any = false;
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const BasicLaw<S>& law = system.joints[j].law;
-    if (law.ideal_limit() || !law.starts_free()) continue;
-    const BasicResponse<S> stands = respond(law, taut.gap[j], taut.gap_rate[j]), now = respond(law, found.gap[j], found.gap_rate[j]);
-    for (int k = 0; k < S::kDof; ++k) {
-      const double asked = std::abs(found.force[j][k]);
-      if (left[j][k] != 0 || !(stands.stiffness(k, k) > 0) || now.stiffness(k, k) > 0 || !(asked > nothing)) continue;
-      if (std::abs(stands.force[k]) > nothing) {
-        left[j][k] = 1;
-        any = true;
-      } else if (asked > most) {
-        most = asked;
-        most_asked = &left[j][k];
+struct OneSided {
+  VecsOf<S> left, slack;  // 1 in them; and in those of them that have no pretension and carry nothing
+
+  // Adds what the forces found ask to push: all that has pretension, and of the others what is asked for the most. Whether there is any.
+  bool add(const BasicSystem<S>& system, const BasicState<S>& taut, const BasicState<S>& found) {
+    const double nothing = kFits * largest_force(found.force);
+    double most = nothing;
+    bool any = false;
+    std::optional<std::pair<int, int>> most_asked;
+    for (int j = 0; j < system.n_joints(); ++j) {
+      const BasicLaw<S>& law = system.joints[j].law;
+      if (law.ideal_limit() || !law.starts_free()) continue;
+      const BasicResponse<S> stands = respond(law, taut.gap[j], taut.gap_rate[j]), now = respond(law, found.gap[j], found.gap_rate[j]);
+      for (int k = 0; k < S::kDof; ++k) {
+        const double asked = std::abs(found.force[j][k]);
+        if (left[j][k] != 0 || !(stands.stiffness(k, k) > 0) || now.stiffness(k, k) > 0 || !(asked > nothing)) continue;
+        if (std::abs(stands.force[k]) > nothing) {
+          left[j][k] = 1;
+          any = true;
+        } else if (asked > most) {
+          most = asked;
+          most_asked = {j, k};
+        }
       }
     }
+    if (most_asked) left[most_asked->first][most_asked->second] = slack[most_asked->first][most_asked->second] = 1;
+    return any || most_asked;
   }
-  if (most_asked != nullptr) *most_asked = 1;
-  return any || most_asked != nullptr;
-}
+};
 
 template <class S>
 void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
@@ -139,7 +145,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   forces.linearize_redundant_laws(state);
   const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
   bool fits = true;
-  VecsOf<S> left(joints, S::Vec::Zero());
+  OneSided<S> one_sided{VecsOf<S>(joints, S::Vec::Zero()), VecsOf<S>(joints, S::Vec::Zero())};
   const BasicState<S> taut = state;
   for (int pass = 0; pass < (fits ? kPreloadPasses : kRedundantPasses); ++pass) {
     const BasicState<S> before = state;
@@ -150,8 +156,8 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       break;
     }
     forces.find_gaps(state);
-    if (leave_one_sided(system, taut, state, left)) {
-      forces.let_go(left);
+    if (one_sided.add(system, taut, state)) {
+      forces.let_go(one_sided.left, one_sided.slack);
       state = taut;
       pass = -1;  // from the beginning
       continue;

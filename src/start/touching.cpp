@@ -26,6 +26,7 @@ struct Touch {
   double sign, stiffness;  // [N/m] or [N*m/rad], under the loads of the start
   S::Vec gap;              // where they touch
   bool is_stop;            // of what the joint leaves free
+  double beside = 0;       // what else acts there on the second body, as the pressure in a cylinder [N] or [N*m]
 };
 
 S::Vec gap_at(const Touch& touch, double depth) {
@@ -34,15 +35,20 @@ S::Vec gap_at(const Touch& touch, double depth) {
   return gap;
 }
 
-double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * force[touch.k]; }
+double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * (force[touch.k] - touch.beside); }
+
+// Of all parts of a law, at rest.
+S::Vec force_at(const BasicLaw<S>& law, const S::Vec& gap) {
+  const S::Vec still = S::Vec::Zero();
+  double states[kMostLawStates];
+  law.rest({0, gap, still, states}, states);
+  return law.force({0, gap, still, states});
+}
 
 // At rest.
 double pressing_at(const BasicLaw<S>& law, const Touch& touch, double depth) {
-  const S::Vec gap = gap_at(touch, depth), still = S::Vec::Zero();
-  if (!touch.is_stop) return pressing(touch, respond(law, gap, still).force);
-  double states[kMostLawStates];
-  law.rest({0, gap, still, states}, states);
-  return pressing(touch, law.force({0, gap, still, states}));
+  const S::Vec gap = gap_at(touch, depth);
+  return pressing(touch, touch.is_stop ? force_at(law, gap) : respond(law, gap, S::Vec(S::Vec::Zero())).force);
 }
 
 // By bisection, which no power of the depth disturbs.
@@ -75,13 +81,14 @@ double depth_in(const BasicLaw<S>& law, const S::Vec& gap) {
 // A contact that is hardly touched is soft: it counts with the stiffness that it has under `load`, at a lever of `length` where it holds an angle.
 std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest, double load, double length) {
   const BasicLaw<S>& law = system.joints[j].law;
-  if ((law.ideal_limit() && !law.has_stops()) || law.feeds()) return std::nullopt;
+  if ((law.ideal_limit() || law.feeds()) && !law.has_stops()) return std::nullopt;
   constexpr double kProbe = ContactForce::kUsualDepth, kSlope = 1e-3;  // [m] or [rad]; of a depth, over which a stiffness is a difference
   for (int k = 0; k < S::kDof; ++k)
     for (const double sign : {1.0, -1.0}) {
       Touch touch{j, k, sign, 0, r.gap, system.joints[j].free_mask[k] != 0};
       const double lever = k < S::kDim ? 1 : length, deep = depth_in(law, gap_at(touch, kProbe)), depth = std::max(depth_in(law, r.gap), deep - kProbe);
       if (!(std::abs(depth) * lever <= within) || !(deep - depth > 0.5 * kProbe)) continue;
+      if (touch.is_stop) touch.beside = force_at(law, touch.gap)[k];
       const double pressed = load > 0 ? std::max(depth_at(law, touch, load * lever), kProbe) : kProbe;
       touch.stiffness = (pressing_at(law, touch, pressed + kSlope * pressed) - pressing_at(law, touch, pressed)) / (kSlope * pressed);
       if (touch.stiffness > 0 && std::abs(r.rate[k]) * lever <= at_rest) return touch;
@@ -110,7 +117,7 @@ System with_springs(const System& system, const std::vector<Touch>& touches) {
     spring.K(touch.k, touch.k) = touch.stiffness;
     spring.offset = touch.gap;
     if (touch.is_stop) {
-      joint.law = joint.law.without_stops();
+      joint.law = joint.law.of_what_holds();
       joint.law.add(BasicLaw<S>(spring).parts().front()->clone());
     } else {
       joint.law = BasicLaw<S>(spring);
