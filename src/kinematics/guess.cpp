@@ -144,11 +144,17 @@ Vecs guess_velocities(const Model& model, const System& system, const Vecs& q) {
   PoseWalk walk(system);
   walk.begin_at_ground();
   walk.go_on(move);
-  for (int i = 0; i < system.n_bodies(); ++i) {  // what does not hang on the ground
-    if (walk.reached(i) || !(model.bodies[i].velocity || model.bodies[i].spin)) continue;
-    walk.begin_at(i);
-    walk.go_on(move);
-  }
+  // What does not hang on the ground: from where most is stated, whatever the order of the bodies.
+  const auto begin_where = [&](const auto& is_stated) {
+    for (int i = 0; i < system.n_bodies(); ++i) {
+      if (walk.reached(i) || !is_stated(model.bodies[i])) continue;
+      walk.begin_at(i);
+      walk.go_on(move);
+    }
+  };
+  begin_where([](const Body& body) { return body.velocity && body.spin; });
+  begin_where([](const Body& body) { return body.velocity.has_value(); });
+  begin_where([](const Body& body) { return body.spin.has_value(); });
   return v;
 }
 
