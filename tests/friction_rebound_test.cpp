@@ -41,5 +41,16 @@ TEST(FrictionRebound, ABladeComesToRestBesideItsDetent) {
   EXPECT_NEAR(reference::value(run, run.n_rows() - 1, "joint.O.angle"), -std::acos(-1) / 6, 2e-3);
 }
 
+// At a speed that rounding has left, the sign of the rate is one or the other in each iteration: no step is short enough for Newton's method.
+TEST(FrictionRebound, ATorqueThatJumpsWithTheRateComesToRest) {
+  for (const char* friction : {"coulomb", "lugre"})
+    for (const double tolerance : {1e-3, 1e-5}) {
+      Model model = reference::test_model("pin_with_a_torque_against_its_rate", {std::string("joint.o.friction=\"") + friction + "\""});
+      model.simulate.tolerance = tolerance;
+      const Trajectory run = reference::completed(model);
+      EXPECT_NEAR(run.joints[0].peak, 19.86, 0.02) << friction << ", " << tolerance;
+    }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "pintle/read_model.h"
@@ -288,6 +289,16 @@ TEST(Ideal, LawsThatStayBeginLoaded) {
   }
   EXPECT_NEAR(turning.joints[0].peak, 98.1 + 50, 0.2);
   EXPECT_NE(turning.notes.front().find("joints that stay force laws beside the ideal ones: brg"), std::string::npos) << turning.notes.front();
+}
+
+// They also begin with the rates that go with the motion: a bushing in a slider-crank at speed carries from its first row on what it carries one turn later.
+TEST(Ideal, LawsThatStayBeginOnTheirSlowMotion) {
+  Model model = reference::test_model("slider_crank_with_bushing");
+  model.simulate.equations = Equations::kIdeal;
+  const Trajectory run = reference::completed(model);
+  const std::size_t turn = static_cast<std::size_t>(std::lround(2 * std::numbers::pi / 50 / model.simulate.output_step));
+  for (std::size_t row = 0; row < 5; ++row)
+    EXPECT_NEAR(reference::value(run, row, "joint.B.on_pis.fx[world]"), reference::value(run, row + turn, "joint.B.on_pis.fx[world]"), 0.05) << row;
 }
 
 // A contact damps by the speed at which it was touched, which these equations do not keep: no result instead of a wrong one.

@@ -42,6 +42,14 @@ TEST(Starts, RopesThatTheLoadSlackensCarryNothing) {
   EXPECT_NEAR(belt.joints[3].peak, 200, 1e-2);
 }
 
+// One rope that stays as long as it is keeps the others slack: held all at once, they would fit no place of the plate.
+TEST(Starts, OneOfThreeRopesCarriesAPlateBesideItsCentre) {
+  const Trajectory run = completed(test_model("plate_on_ropes_beside_its_centre"));
+  EXPECT_EQ(run.joints[0].peak, 0);
+  EXPECT_EQ(run.joints[1].peak, 0);
+  EXPECT_NEAR(value(run, 0, "joint.r2.on_pl.fy[world]"), 10 * 9.80665 / (1 + 10 * 0.1 * 0.1), 1e-2);
+}
+
 // The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the cam.
 TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
   const Model model = test_model("cam_on_ball_bearing");

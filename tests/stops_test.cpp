@@ -235,6 +235,14 @@ TEST(Stops, WhatBeginsAtAStopIsCarriedByIt) {
   EXPECT_EQ(reference::value(lifted, 0, "joint.O.stop_moment"), 0);
 }
 
+// The pressure presses on the stop, too: 50 bar on a piston of 50 mm, and 1000 N that pull.
+TEST(Stops, ACylinderThatBeginsAtItsStrokeEndIsCarriedByIt) {
+  const Trajectory run = completed(reference::test_model("cylinder_at_its_stroke_end"));
+  EXPECT_NEAR(reference::value(run, 0, "joint.c.force"), -1000, 1e-2);
+  EXPECT_NEAR(reference::value(run, 0, "joint.c.stop_force"), -1000 - 50e5 * M_PI / 4 * 0.05 * 0.05, 1e-2);
+  EXPECT_NEAR(run.joints[1].peak, 1000, 1e-2);
+}
+
 TEST(Stops, AStartBeyondThemIsRefused) {
   const auto message = [](const Model& model) -> std::string {
     try {

@@ -120,7 +120,7 @@ class BasicSlowManifold {
     double most = 0;
     for (std::size_t j = 0; j < state.force.size(); ++j)
       for (int k = 0; k < S::kDim; ++k)
-        if (force_[0][j][k] != 0) most = std::max(most, std::abs(state.force[j][k] - force_[0][j][k]));
+        if (force_[0][j][k] != 0 && !system_.joints[j].constrained) most = std::max(most, std::abs(state.force[j][k] - force_[0][j][k]));
     return most / std::max(largest_force(force_[0]), 1e-300);
   }
 

@@ -274,6 +274,12 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     double error = 0;
     if (!solved || !method.error_estimate(h, error)) {
       if (solved) ++counters.newton_failures;
+      // A force that jumps at a speed that rounding alone has left: the bodies are on one side or on the other in each iteration, whatever the step.
+      if (!solved && h <= kShortestRefused * std::abs(t_end) && method.motion_is_rounding(h)) {
+        method.taylor_step(h);
+        next = std::max(h, kAfterEvent * usual);
+        return ++counters.steps, true;
+      }
       h *= kShrink;
       continue;
     }
