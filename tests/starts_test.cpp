@@ -50,6 +50,13 @@ TEST(Starts, OneOfThreeRopesCarriesAPlateBesideItsCentre) {
   EXPECT_NEAR(value(run, 0, "joint.r2.on_pl.fy[world]"), 10 * 9.80665 / (1 + 10 * 0.1 * 0.1), 1e-2);
 }
 
+// A mesh's separating force carries nothing by itself, and makes no joint redundant: both meshes start with their load, 500 N / cos 20 deg in the second.
+TEST(Starts, MeshesOfTablesInSeriesStartWithTheirLoad) {
+  const Trajectory run = completed(test_model("two_meshes_of_tables"));
+  EXPECT_NEAR(run.joints[4].peak, 500 / std::cos(20 * std::numbers::pi / 180), 0.05);
+  EXPECT_NEAR(value(run, 0, "joint.g2.on_s.m[world]"), 40, 1e-2);
+}
+
 // The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the cam.
 TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
   const Model model = test_model("cam_on_ball_bearing");

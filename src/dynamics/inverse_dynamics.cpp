@@ -422,8 +422,10 @@ void BasicInverseDynamics<S>::linearize_redundant_laws(const BasicState<S>& stat
   const VecsOf<S> held = held_components(system_), none(system_.bodies.size(), S::Vec::Zero());
   if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate, &held)) return linearized_.assign(linearized_.size(), false);
   VecsOf<S> force(linearized_.size());
-  for (int j = 0; j < system_.n_joints(); ++j)
-    for (int k = 0; k < S::kDof; ++k) force[j][k] = held[j][k] * std::cos(1.0 + S::kDof * j + k);  // of no direction in particular
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const BasicResponse<S> now = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]);
+    for (int k = 0; k < S::kDof; ++k) force[j][k] = now.stiffness(k, k) > 0 ? held[j][k] * std::cos(1.0 + S::kDof * j + k) : 0;  // of no direction in particular
+  }
   const double given = largest_force(force);
   for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(none, none, force);
   for (int j = 0; j < system_.n_joints(); ++j) {
