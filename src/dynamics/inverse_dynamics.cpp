@@ -158,10 +158,9 @@ void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
         rate[k] = r_[j].rate[k];
       }
     double states[kMostLawStates];
-    typename S::Vec at_rest = rate;
-    for (int k = 0; !rest_rate_.empty() && k < S::kDof; ++k)
-      if (!joint.held[k]) at_rest[k] = rest_rate_[j][k];
-    joint.law.rest({state.t, gap, at_rest, states}, states);
+    for (int k = 0; !rest_rate_.empty() && joint.law.n_states() > 0 && k < S::kDof; ++k)
+      if (!joint.held[k]) rate[k] = rest_rate_[j][k];
+    joint.law.rest({state.t, gap, rate, states}, states);
     const typename S::Vec force = joint.law.force({state.t, gap, rate, states});
     for (int k = 0; k < S::kDof; ++k)
       if (!joint.held[k]) {

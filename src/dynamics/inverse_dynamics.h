@@ -58,7 +58,8 @@ class BasicInverseDynamics {
   /// Accelerations and joint forces at state.q, state.v for which the gaps accelerate as state.gap_accel says; what no
   /// motion can close stays as state.force has it. False when there is no stiff joint or the equations are singular.
   bool find(BasicState<S>& state);
-  /// From now on what rubs keeps the states that its joint has at rest with the rates of this start: over a short motion from standstill bristles do not bend.
+  /// From now on what rubs and has states, as bristles are, rubs as it does at rest with the rates of this start: over a short motion they do not bend, and what
+  /// their dampers would give at the rates of that motion is no friction.
   void keep_states_of(const BasicState<S>& start);
   /// The accelerations alone.
   bool find_accelerations(BasicState<S>& state);
@@ -101,7 +102,7 @@ class BasicInverseDynamics {
   std::vector<BasicJointKinematics<S>> r_;
   std::vector<int> rubbing_;      // joints with friction, stops, detents or pressure
   std::vector<bool> linearized_;  // joints whose gaps are found by one step with the tangent
-  VecsOf<S> rest_rate_;           // with which the states of friction are at rest, where they are kept
+  VecsOf<S> rest_rate_;           // with which friction that has states is found, where it is kept
   VecsOf<S> let_go_, slack_;      // 1 in components that move_onto_gaps does not hold, or not unless they tighten; empty: it holds what the joints do
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_, last_force_, no_load_, accelerated_, accelerating_;
 };
