@@ -120,9 +120,9 @@ void BasicInverseDynamics<S>::leave_to_laws(const VecsOf<S>& components) {
 }
 
 template <class S>
-void BasicInverseDynamics<S>::let_go(const VecsOf<S>& components, const VecsOf<S>& slack) {
+void BasicInverseDynamics<S>::release(const VecsOf<S>& components, const VecsOf<S>& slack) {
   leave_to_laws(components);
-  let_go_ = components;
+  released_ = components;
   slack_ = slack;
 }
 
@@ -282,8 +282,8 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
     const BasicLaw<S>& law = system_.joints[j].law;
     if (linearized_[j] && resists(law, respond(law, r_[j].gap, rate))) newton_step_to_force(law, state.force[j], rate, moved_.empty() ? typename S::Vec(S::Vec::Ones()) : moved_[j], state.gap[j]);
     else carried = gap_at_force(law, state.force[j], rate, state.gap[j]) && carried;
-    for (int k = 0; !let_go_.empty() && k < S::kDof; ++k)
-      if (let_go_[j][k] != 0) state.gap[j][k] = r_[j].gap[k];
+    for (int k = 0; !released_.empty() && k < S::kDof; ++k)
+      if (released_[j][k] != 0) state.gap[j][k] = r_[j].gap[k];
   }
   return carried;
 }
@@ -302,7 +302,7 @@ std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) cons
 
 // The slack components, joint and component, that are not held and carry where the bodies have come to.
 template <class S>
-std::vector<std::pair<int, int>> BasicInverseDynamics<S>::tightened(const VecsOf<S>& held) const {
+std::vector<std::pair<int, int>> BasicInverseDynamics<S>::slack_drawn_taut(const VecsOf<S>& held) const {
   std::vector<std::pair<int, int>> out;
   for (std::size_t j = 0; j < slack_.size(); ++j)
     for (int k = 0; k < S::kDof; ++k)
@@ -320,35 +320,33 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   if (firm) holding.emplace(*firm);
   BasicGapProjector<S>& projector = holding ? *holding : projector_;
   const double mu = kHeldAbove * slowest_joint(system_, r_);
-  VecsOf<S> held = held_components(system_), gap = state.gap, before;
-  for (std::size_t j = 0; j < let_go_.size(); ++j) held[j] = held[j].cwiseProduct(S::Vec::Ones() - let_go_[j]);
+  VecsOf<S> held = held_components(system_), gap = state.gap;
+  for (std::size_t j = 0; j < released_.size(); ++j) held[j] = held[j].cwiseProduct(S::Vec::Ones() - released_[j]);
   for (const int j : apart_now) gap[j] = r_[j].gap;
-  for (const BasicJointKinematics<S>& r : r_) before.push_back(r.gap);
-  const PositionsOf<S> from = state.q;
-  const auto close = [&](const std::vector<std::pair<int, int>>& taut) {
-    VecsOf<S> holding_now = held, at = gap;
-    for (const auto& [j, k] : taut) {
-      holding_now[j][k] = 1;
-      at[j][k] = before[j][k];
-    }
-    state.q = from;
-    find_kinematics(state);
-    if (!projector.prepare(r_, mu, state.gap, state.gap_rate, &holding_now)) return std::optional<std::size_t>();
+  if (!std::isfinite(mu)) return;
+  const auto close = [&](const VecsOf<S>& holding_now) {
+    if (!projector.prepare(r_, mu, state.gap, state.gap_rate, &holding_now)) return false;
     for (int pass = 0; pass < kClosing; ++pass) {
-      if (pass > 0) find_kinematics(state);
-      for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = at[j] - r_[j].gap;
+      for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = gap[j] - r_[j].gap;
       moves_.assign(state.v.size(), S::Vec::Zero());
       projector.close(wanted_, moves_);
       for (std::size_t i = 0; i < moves_.size(); ++i) S::move(state.q[i], moves_[i]);
+      find_kinematics(state);
     }
-    find_kinematics(state);
-    return std::optional(tightened(holding_now).size());
+    return true;
   };
-  if (!std::isfinite(mu) || !close({})) return;
-  // One rope that stays as long as it is may keep all others slack; where none does, all that would tighten stay so.
-  if (const std::vector<std::pair<int, int>> taut = tightened(held); !taut.empty()) {
-    const bool one_is_enough = std::any_of(taut.begin(), taut.end(), [&](const std::pair<int, int>& one) { return close({one}) == std::optional<std::size_t>(0); });
-    if (!one_is_enough && !close(taut)) return;
+  const PositionsOf<S> from = slack_.empty() ? PositionsOf<S>() : state.q;
+  if (!close(held)) return;
+  // One rope that stays as long as it is may keep all others slack; where none does, all that would be drawn taut stay so.
+  if (const std::vector<std::pair<int, int>> taut = slack_drawn_taut(held); !taut.empty()) {
+    const auto close_with = [&](const std::vector<std::pair<int, int>>& components) {
+      VecsOf<S> holding_now = held;
+      for (const auto& [j, k] : components) holding_now[j][k] = 1;
+      state.q = from;
+      find_kinematics(state);
+      return close(holding_now) && slack_drawn_taut(holding_now).empty();
+    };
+    if (std::none_of(taut.begin(), taut.end(), [&](const std::pair<int, int>& one) { return close_with({one}); })) close_with(taut);
   }
   VecsOf<S> dv(state.v.size(), S::Vec::Zero()), rate = state.gap_rate;
   for (const int j : apart_now) rate[j] = r_[j].rate;

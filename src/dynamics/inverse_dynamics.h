@@ -52,8 +52,8 @@ class BasicInverseDynamics {
   /// The components (1, others 0) that `find` leaves to their laws: their forces are those of the gaps and rates that the
   /// bodies have, and their gaps accelerate as they may.
   void leave_to_laws(const VecsOf<S>& components);
-  /// The same, and `move_onto_gaps` takes these gaps as the other joints' make them; those in `slack`, which carry nothing, where that does not tighten them.
-  void let_go(const VecsOf<S>& components, const VecsOf<S>& slack);
+  /// The same, and `move_onto_gaps` leaves these gaps as the other joints make them; of those in `slack`, which carry nothing, none is drawn taut.
+  void release(const VecsOf<S>& components, const VecsOf<S>& slack);
 
   /// Accelerations and joint forces at state.q, state.v for which the gaps accelerate as state.gap_accel says; what no
   /// motion can close stays as state.force has it. False when there is no stiff joint or the equations are singular.
@@ -88,7 +88,7 @@ class BasicInverseDynamics {
   void find_kinematics(const BasicState<S>& state);
   bool is_nonlinear(int j) const;
   bool any_linearized() const;
-  std::vector<std::pair<int, int>> tightened(const VecsOf<S>& held) const;
+  std::vector<std::pair<int, int>> slack_drawn_taut(const VecsOf<S>& held) const;
   void set_linearized_gaps_from_bodies(BasicState<S>& state) const;
   std::vector<int> apart(const BasicState<S>& state) const;
   typename S::Vec from_bodies(int j, const VecsOf<S>& x) const;
@@ -103,7 +103,7 @@ class BasicInverseDynamics {
   std::vector<int> rubbing_;      // joints with friction, stops, detents or pressure
   std::vector<bool> linearized_;  // joints whose gaps are found by one step with the tangent
   VecsOf<S> rest_rate_;           // with which friction that has states is found, where it is kept
-  VecsOf<S> let_go_, slack_;      // 1 in components that move_onto_gaps does not hold, or not unless they tighten; empty: it holds what the joints do
+  VecsOf<S> released_, slack_;      // 1 in components that move_onto_gaps does not hold, or not unless they tighten; empty: it holds what the joints do
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_, last_force_, no_load_, accelerated_, accelerating_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;

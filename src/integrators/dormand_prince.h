@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/thresholds.h"
+
 namespace pintle::dormand_prince {
 
 constexpr int kStages = 7;
@@ -18,6 +20,9 @@ constexpr double kA[kStages][6] = {{},
 constexpr double kC[kStages] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
 /// The weights of the fifth order less those of the fourth.
 constexpr double kE[kStages] = {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+
+/// Whether a step of h with an embedded error of so many tolerances is taken, in a run up to t_end.
+inline bool is_accepted(double error, double h, double t_end) { return error <= 1 || (std::isfinite(error) && h <= kShortestRefused * std::abs(t_end)); }
 
 /// The size of the next step over this one's, where this one's embedded error was so many tolerances: the error falls with the fifth power of the step.
 inline double step_ratio(double error) {

@@ -271,7 +271,7 @@ bool BasicLaw<S>::ideal_limit() const {
 
 template <class S>
 BasicResponse<S> BasicLaw<S>::holding(const typename S::Vec& gap, const typename S::Vec& rate) const {
-  return rubs() ? respond(of_what_holds(), gap, rate) : holding_of_parts(gap, rate);
+  return rubs() ? respond(holding_law(), gap, rate) : holding_of_parts(gap, rate);
 }
 
 // Static stiffness: that of Eq. (3.9) at mu = 0.
@@ -330,7 +330,7 @@ typename S::Vec BasicLaw<S>::open_contact_stiffness(const Point& at) const {
 }
 
 template <class S>
-BasicLaw<S> BasicLaw<S>::of_what_holds() const {
+BasicLaw<S> BasicLaw<S>::holding_law() const {
   BasicLaw out(linear_);
   for (const auto& part : parts_)
     if (part->holds()) out.add(part->clone());

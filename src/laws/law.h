@@ -56,7 +56,7 @@ class BasicLaw {
   /// Throws std::invalid_argument when the joint would have too many states.
   void add(std::unique_ptr<Part> part);
   /// What holds the joint alone: without friction, stops, detents and pressure.
-  BasicLaw of_what_holds() const;
+  BasicLaw holding_law() const;
 
   /// The springs and dampers, where there is nothing else: constant tangents, one component apart from the other. Otherwise null.
   const Linear* as_linear() const { return parts_.empty() ? &linear_ : nullptr; }

@@ -28,8 +28,8 @@ using S = Planar;
 
 constexpr double kTolerance = 1e-5;               // of the creep's steps: where it ends does not depend on the way
 constexpr double kAtRest = 1e-11;                 // of the largest force: what is left unbalanced where a body counts as resting, where rounding leaves less
-constexpr int kSwings = 100;                      // steps in which what is unbalanced does not fall by half, nor time grows to kLonger: the mechanism swings, or has come as near as rounding lets it
-constexpr double kLonger = 4;                     // times the time of kSwings steps before: steps grow, as where a weight sinks steadily
+constexpr int kSwings = 100;                      // steps in which neither what is unbalanced falls by half nor time grows to kLonger: the mechanism swings, or has come as near as rounding lets it
+constexpr double kLonger = 4;                     // times the time of kSwings steps before: steps grow, as where a weight sinks steadily. With 2 and with 8 a post that sticks on its way (test SettledStart) rests there, not where it would without friction; all others rest alike
 constexpr double kThicker = 4;                    // rate of the next fluid over that of one in which the mechanism swings
 constexpr double kFirstStep = 1e-3;               // over the time of the creep
 constexpr double kLongest = 1e6;                  // times that of the creep: a mechanism that still moves then has no position of rest
@@ -192,7 +192,7 @@ class Creep {
         if (rests()) return true;
         throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
       }
-      if (unrest > 0.5 * halved && !(state.t > kLonger * mark)) continue;
+      if (unrest > 0.5 * halved && state.t <= kLonger * mark) continue;
       halved = std::min(unrest, halved);
       mark = state.t;
       since = 0;

@@ -157,7 +157,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     }
     forces.find_gaps(state);
     if (one_sided.add(system, taut, state)) {
-      forces.let_go(one_sided.left, one_sided.slack);
+      forces.release(one_sided.left, one_sided.slack);
       state = taut;
       pass = -1;  // from the beginning
       continue;

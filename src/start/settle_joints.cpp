@@ -30,13 +30,13 @@ constexpr double kEntirely = 0.99;                    // of its slow motion: wit
 
 constexpr const char* kNotSettled = "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated errors do not include this";
 
-// Half a step that a rough integration takes; at least the time in which the slowest joint vibrates, as far as the motion is smooth that long: over less,
+// Half a step that a rough integration takes; at least the time in which the slowest joint vibrates, but no longer than `longest`: over less,
 // rates and accelerations of gaps are rounding. Rounded to a part of the duration, so that it does not change with every slight change of the
 // model: where a joint is as slow as the motion, what is called its slow motion depends on the span.
 template <class S>
-double smooth_span(const BasicSystem<S>& system, const BasicState<S>& start, double duration, double slowest, double span_of_motion) {
+double smooth_span(const BasicSystem<S>& system, const BasicState<S>& start, double duration, double slowest, double longest) {
   const double half = 0.5 * natural_step<BasicRadauStepper<S>>(system, start, duration);
-  const double smooth = std::max(half, std::min({1 / slowest, span_of_motion, duration}));
+  const double smooth = std::max(half, std::min({1 / slowest, longest, duration}));
   return half > 0 ? duration * std::exp2(std::floor(std::log2(smooth / duration))) : 0;
 }
 

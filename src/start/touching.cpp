@@ -10,6 +10,7 @@
 #include "kinematics/position_search.h"
 #include "laws/bushing.h"
 #include "laws/contact/gap_contact.h"
+#include "laws/law_tangents.h"
 #include "start/preload.h"
 #include "start/seat.h"
 
@@ -37,23 +38,23 @@ S::Vec gap_at(const Touch& touch, double depth) {
 
 double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * (force[touch.k] - touch.beside); }
 
-// Of all parts of a law, at rest.
-S::Vec force_at(const BasicLaw<S>& law, const S::Vec& gap) {
-  const S::Vec still = S::Vec::Zero();
+// A law at rest: of a stop all that acts in its component, of a contact what holds.
+BasicResponse<S> respond_at_rest(const BasicLaw<S>& law, const Touch& touch, double depth) {
+  const S::Vec gap = gap_at(touch, depth), still = S::Vec::Zero();
+  if (!touch.is_stop) return respond(law, gap, still);
   double states[kMostLawStates];
   law.rest({0, gap, still, states}, states);
-  return law.force({0, gap, still, states});
-}
-
-// At rest.
-double pressing_at(const BasicLaw<S>& law, const Touch& touch, double depth) {
-  const S::Vec gap = gap_at(touch, depth);
-  return pressing(touch, touch.is_stop ? force_at(law, gap) : respond(law, gap, S::Vec(S::Vec::Zero())).force);
+  LawTangents all;
+  law.linearize({0, gap, still, states}, all);
+  BasicResponse<S> out;
+  out.force = all.force;
+  out.stiffness = all.stiffness;
+  return out;
 }
 
 // By bisection, which no power of the depth disturbs.
 double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
-  const auto missing = [&](double depth) { return force - pressing_at(law, touch, depth); };
+  const auto missing = [&](double depth) { return force - pressing(touch, respond_at_rest(law, touch, depth).force); };
   double low = 0, high = ContactForce::kUsualDepth;
   for (int i = 0; i < 60 && missing(high) > 0; ++i) high *= 2;
   for (int i = 0; i < 60; ++i) {
@@ -82,15 +83,15 @@ double depth_in(const BasicLaw<S>& law, const S::Vec& gap) {
 std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest, double load, double length) {
   const BasicLaw<S>& law = system.joints[j].law;
   if ((law.ideal_limit() || law.feeds()) && !law.has_stops()) return std::nullopt;
-  constexpr double kProbe = ContactForce::kUsualDepth, kSlope = 1e-3;  // [m] or [rad]; of a depth, over which a stiffness is a difference
+  constexpr double kProbe = ContactForce::kUsualDepth;  // [m] or [rad]
   for (int k = 0; k < S::kDof; ++k)
     for (const double sign : {1.0, -1.0}) {
       Touch touch{j, k, sign, 0, r.gap, system.joints[j].free_mask[k] != 0};
       const double lever = k < S::kDim ? 1 : length, deep = depth_in(law, gap_at(touch, kProbe)), depth = std::max(depth_in(law, r.gap), deep - kProbe);
       if (!(std::abs(depth) * lever <= within) || !(deep - depth > 0.5 * kProbe)) continue;
-      if (touch.is_stop) touch.beside = force_at(law, touch.gap)[k];
+      if (touch.is_stop) touch.beside = respond_at_rest(law, touch, 0).force[k];
       const double pressed = load > 0 ? std::max(depth_at(law, touch, load * lever), kProbe) : kProbe;
-      touch.stiffness = (pressing_at(law, touch, pressed + kSlope * pressed) - pressing_at(law, touch, pressed)) / (kSlope * pressed);
+      touch.stiffness = respond_at_rest(law, touch, pressed).stiffness(k, k);
       if (touch.stiffness > 0 && std::abs(r.rate[k]) * lever <= at_rest) return touch;
     }
   return std::nullopt;
@@ -117,7 +118,7 @@ System with_springs(const System& system, const std::vector<Touch>& touches) {
     spring.K(touch.k, touch.k) = touch.stiffness;
     spring.offset = touch.gap;
     if (touch.is_stop) {
-      joint.law = joint.law.of_what_holds();
+      joint.law = joint.law.holding_law();
       joint.law.add(BasicLaw<S>(spring).parts().front()->clone());
     } else {
       joint.law = BasicLaw<S>(spring);

@@ -74,7 +74,7 @@ bool Dopri5::step(double t_end) {
     }
     const double e = error(h) / tolerance_;
     const double factor = step_ratio(e);
-    if (e <= 1 || (std::isfinite(e) && h <= kShortestRefused * std::abs(t_end))) {
+    if (is_accepted(e, h, t_end)) {
       end_.t = end_of_step(begin_.t, h, t_end);
       end_.q = q_;
       end_.v = v_;

@@ -63,7 +63,7 @@ class StepControl {
   std::string last_event(const BasicSystem<S>& system, double since) const;
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
-  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_rounding(h),
+  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_below_rounding(h),
   /// forces_stay_constant(distance), cross_event(distance, event), taylor_step(distance), rebalance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
@@ -77,7 +77,6 @@ class StepControl {
   static constexpr std::uint64_t kStepsBetween = 10;  // of two events of one function, at most, that count as in a row. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
   static constexpr int kMostSame = 8;                 // in a row, after which the next ones are met only if they matter
   static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
-  static constexpr double kLeastSeen = 0.01;      // of a step that is shortened to one bend or kink: what Newton's iteration found may lie anywhere, and a narrow bend is found in a few trials
   static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
   static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
   static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
@@ -205,7 +204,7 @@ class StepControl {
   template <class Method>
   bool make_taylor_step(Method& method, double h, SwitchingEvent event) const {
     const double ahead = event.before * h;
-    if (is_at_start(ahead) || stopped_short_ < kFewShort || !method.motion_is_rounding(ahead) || !method.forces_stay_constant(ahead)) return false;
+    if (is_at_start(ahead) || stopped_short_ < kFewShort || !method.motion_is_below_rounding(ahead) || !method.forces_stay_constant(ahead)) return false;
     if (!locate_on_taylor_series(method, 2 * ahead, h, event)) return false;
     method.taylor_step(event.before * h);
     return true;
@@ -244,7 +243,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     }
     if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < 1) {
       ++counters.rejected;
-      h *= std::max(seen, kLeastSeen);
+      h *= std::max(seen, kLeast);  // what Newton's iteration found may lie anywhere
       up_to_event = false;
       continue;
     }
@@ -275,7 +274,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (!solved || !method.error_estimate(h, error)) {
       if (solved) ++counters.newton_failures;
       // A force that jumps at a speed that rounding alone has left: the bodies are on one side or on the other in each iteration, whatever the step.
-      if (!solved && h <= kShortestRefused * std::abs(t_end) && method.motion_is_rounding(h)) {
+      if (!solved && h <= kShortestRefused * std::abs(t_end) && method.motion_is_below_rounding(h)) {
         method.taylor_step(h);
         next = std::max(h, kAfterEvent * usual);
         return ++counters.steps, true;

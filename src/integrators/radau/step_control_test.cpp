@@ -15,7 +15,7 @@ class Flickering {
   double contraction() const { return 0; }
   bool sets_states(const SwitchingEvent&) const { return false; }
   bool rests(double) const { return false; }
-  bool motion_is_rounding(double) const { return false; }
+  bool motion_is_below_rounding(double) const { return false; }
   SwitchingEvent locate_event(double, bool) const {
     SwitchingEvent event;
     event.function = 0;
@@ -60,7 +60,7 @@ class OneEvent {
   double contraction() const { return 0; }
   bool sets_states(const SwitchingEvent&) const { return false; }
   bool rests(double) const { return false; }
-  bool motion_is_rounding(double) const { return false; }
+  bool motion_is_below_rounding(double) const { return false; }
   SwitchingEvent locate_event(double h, bool) const {
     SwitchingEvent event;
     if (crossings > 0 || t_ + h < at_) return event;
@@ -128,7 +128,7 @@ class Resting {
   double contraction() const { return 0; }
   bool sets_states(const SwitchingEvent&) const { return false; }
   bool rests(double) const { return false; }
-  bool motion_is_rounding(double) const { return true; }
+  bool motion_is_below_rounding(double) const { return true; }
   SwitchingEvent locate_event(double h, bool solved) const {
     SwitchingEvent event;
     const double ahead = (solved ? 0.6 : 1) * (at_ - t_);

@@ -51,7 +51,7 @@ class StepEvents {
   /// Whether no body goes farther in a step of h than the rounding of its place leaves open.
   bool rests(double h);
   /// Whether what bodies move by within h is lost in the rounding of their places: no shorter step comes nearer to what happens then.
-  bool motion_is_rounding(double h);
+  bool motion_is_below_rounding(double h);
   /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
   void cross_event(double distance, const SwitchingEvent& event);
   /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
@@ -132,7 +132,7 @@ bool StepEvents<Method, S>::rests(double h) {
 }
 
 template <class Method, class S>
-bool StepEvents<Method, S>::motion_is_rounding(double h) {
+bool StepEvents<Method, S>::motion_is_below_rounding(double h) {
   const BasicState<S>& now = method().end_state();
   const double rounding = std::numeric_limits<double>::epsilon() * largest_coordinate(now.q);
   for (std::size_t i = 0; i < now.v.size(); ++i)

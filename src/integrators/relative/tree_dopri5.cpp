@@ -107,7 +107,7 @@ bool TreeDopri5::step(double t_end) {
     }
     const double e = error(h) / tolerance_;
     const double factor = step_ratio(e);
-    if (e <= 1 || (std::isfinite(e) && h <= kShortestRefused * std::abs(t_end))) {
+    if (is_accepted(e, h, t_end)) {
       end_ = stage_;
       end_.t = end_of_step(begin_.t, h, t_end);
       write(end_, end_state_);

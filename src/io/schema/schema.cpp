@@ -224,25 +224,26 @@ Schema::Schema(std::string_view text) {
   constexpr std::string_view kBegin = "\n[[table]]\n";
   for (std::size_t at = text.find(kBegin), next; at != std::string_view::npos; at = next) {
     next = text.find(kBegin, at + kBegin.size());
-    Stated& stated = tables_.emplace_back();
-    stated.text = text.substr(at, next == std::string_view::npos ? next : next - at);
-    stated.path = stated_word(stated.text, "path");
-    stated.when = stated_word(stated.text, "when");
+    LazyTable& table = tables_.emplace_back();
+    table.text = text.substr(at, next == std::string_view::npos ? next : next - at);
+    table.path = stated_word(table.text, "path");
+    table.when = stated_word(table.text, "when");
   }
 }
 
-const TableSpec& Schema::Stated::table() const {
-  std::call_once(read, [this] {
+const TableSpec& Schema::LazyTable::spec() const {
+  std::call_once(once, [this] {
     const Document document = parse_own_toml(text, "model.schema.toml");
-    spec = read_table(*document.root.table()->find("table")->array()->front().table());
-    if (spec.path != path || spec.when != when) schema_fault("path and when are stated on lines of their own in table " + spec.path);
+    const auto& tables = *document.root.table()->find("table")->array();
+    read = read_table(*tables.front().table());
+    if (tables.size() != 1 || read.path != path || read.when != when) schema_fault("[[table]], path and when stand on lines of their own, in table " + read.path);
   });
-  return spec;
+  return read;
 }
 
 std::vector<TableSpec> Schema::tables() const {
   std::vector<TableSpec> all;
-  for (const Stated& stated : tables_) all.push_back(stated.table());
+  for (const LazyTable& table : tables_) all.push_back(table.spec());
   return all;
 }
 
@@ -255,9 +256,9 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
                            std::string_view detent) const {
   TableSpec out;
   bool found = false;
-  for (const Stated& stated : tables_) {
+  for (const LazyTable& stated : tables_) {
     if (stated.path != path || (!stated.when.empty() && stated.when != when)) continue;
-    const TableSpec& table = stated.table();
+    const TableSpec& table = stated.spec();
     if (!found) out = table;
     if (found) out.keys.insert(out.keys.end(), table.keys.begin(), table.keys.end());
     found = true;
@@ -279,7 +280,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
 std::vector<std::string> Schema::children(std::string_view path) const {
   std::vector<std::string> keys;
   const std::string prefix = path.empty() ? std::string() : std::string(path) + ".";
-  for (const Stated& table : tables_) {
+  for (const LazyTable& table : tables_) {
     if (table.path.size() <= prefix.size() || !std::string_view(table.path).starts_with(prefix)) continue;
     const std::string rest = table.path.substr(prefix.size());
     std::string key = rest.substr(0, rest.find('.'));
@@ -290,9 +291,9 @@ std::vector<std::string> Schema::children(std::string_view path) const {
 
 std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_view key) const {
   std::vector<std::string> kinds;
-  for (const Stated& stated : tables_) {
+  for (const LazyTable& stated : tables_) {
     if (stated.path != path) continue;
-    const TableSpec& table = stated.table();
+    const TableSpec& table = stated.spec();
     if (!table.when.empty() && table.find(key) != nullptr) kinds.push_back(table.called);
     if (!table.joint_type_keys) continue;
     for (const JointTypeInfo& type : joint_type_catalog())
@@ -303,8 +304,8 @@ std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_v
 
 std::vector<std::string> Schema::tables_with(std::string_view key) const {
   std::vector<std::string> paths;
-  for (const Stated& table : tables_)
-    if (table.table().find(key) != nullptr && std::find(paths.begin(), paths.end(), table.path) == paths.end()) paths.push_back(table.path);
+  for (const LazyTable& table : tables_)
+    if (table.spec().find(key) != nullptr && std::find(paths.begin(), paths.end(), table.path) == paths.end()) paths.push_back(table.path);
   return paths;
 }
 

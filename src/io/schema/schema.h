@@ -96,17 +96,17 @@ class Schema {
 
  private:
   /// A table as the file states it: what it holds is read when it is asked for. Most models use half of them.
-  struct Stated {
+  struct LazyTable {
     std::string path, when;
     std::string_view text;
-    mutable std::once_flag read;
-    mutable TableSpec spec;
+    mutable std::once_flag once;
+    mutable TableSpec read;
 
-    const TableSpec& table() const;
+    const TableSpec& spec() const;
   };
 
   explicit Schema(std::string_view text);
-  std::deque<Stated> tables_;
+  std::deque<LazyTable> tables_;
 };
 
 /// A key of a catalog as a key of the format, in a joint of type `type`; null: in any.

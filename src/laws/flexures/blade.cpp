@@ -30,7 +30,6 @@ constexpr double kTail = 1e-8;                 // share of the last coefficients
 constexpr double kRoughTail = 1e-4;            // the same with all the functions that there are
 constexpr int kFinest = 512;                   // parts into which the path is halved, at most
 constexpr double kMostTension = 1e5;           // in units of EI/L^2: beyond, functions of the basis do not follow the bend at the clamps
-constexpr double kMostStrain = 0.1;            // along the blade: no material follows, and trial steps that go there are dear
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 
 // With N functions of the basis, or, where N is Eigen::Dynamic, with as many as it has.
@@ -294,7 +293,7 @@ bool solve(const Vec3& displacement, double axial, double shear, BladeShape& sha
 // The same at the equilibrium that is connected with the straight blade, along a path from there, in one step where that is found: Eq. (2.9).
 template <class Use>
 bool find(const Vec3& displacement, double axial, double shear, const Use& use) {
-  if (!displacement.allFinite() || std::hypot(1 + displacement[0], displacement[1]) - 1 > std::min(axial * kMostTension, kMostStrain)) return false;
+  if (!displacement.allFinite() || std::hypot(1 + displacement[0], displacement[1]) - 1 > axial * kMostTension) return false;
   const auto place = [&displacement](double share) { return Vec3(share * share * displacement[0], share * displacement[1], share * displacement[2]); };
   BladeShape shape;
   double done = 0, part = 1;

@@ -68,7 +68,7 @@ struct StickSlip {
   void borders(double v, double N, const double* state, double* value) const {
     const double way = direction(state), forward = way * v;
     value[0] = value[1] = value[2] = 1;
-    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + rounding_at_rest();
+    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + friction_rounding_at_rest();
     else if (!rebounds(state)) value[1] = N > 0 ? forward + kCrossed : 1;  // where nothing presses nothing would hold them
     else {
       value[1] = way * held(v, state) - kinetic * N;
@@ -91,15 +91,19 @@ struct StickSlip {
     }
     if (!rebounds(state)) state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
     state[1] = 0;
-    if (std::abs(held(v, state)) > kSurely * static_coefficient * N + rounding_at_rest()) state[1] = v > 0 ? 1 : -1;  // what presses has gone before they stick
+    if (breaks(v, N, state)) state[1] = v > 0 ? 1 : -1;  // what presses has gone before they stick
   }
 
  private:
   // Of a friction that rest() has made zero [N]: surfaces on which nothing presses stick until something pulls.
-  double rounding_at_rest() const { return std::numeric_limits<double>::min() + 4 * std::numeric_limits<double>::epsilon() * kStill * damping; }
+  double friction_rounding_at_rest() const { return std::numeric_limits<double>::min() + 4 * std::numeric_limits<double>::epsilon() * kStill * damping; }
+  // By more than rounding.
+  bool breaks(double v, double N, const double* state) const {
+    const double carried = static_coefficient * N;
+    return std::abs(held(v, state)) > carried + 4 * std::numeric_limits<double>::epsilon() * carried + friction_rounding_at_rest();
+  }
   static bool rebounds(const double* state) { return std::abs(state[1]) > 1.5; }
   static double direction(const double* state) { return state[1] > 0 ? 1 : -1; }
-  static constexpr double kSurely = 1 + 1e-9;  // of what they can carry: above it, it is no rounding
   static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
 
   template <class T>
