@@ -128,6 +128,15 @@ TEST(Stiffen, FindsTheFourBarsStiffnessAndItsLimit) {
   for (const Difference& force : c.forces) EXPECT_GE(force.digits, 4) << force.name;
 }
 
+// Where friction holds, the position of rest is one of many, and each stiffness comes to another.
+TEST(Stiffen, NamesJointsThatFrictionHolds) {
+  StiffenRequest request;
+  request.digits = 3;
+  const Stiffening s = stiffen(reference::test_model("scissor_table_that_sticks"), request);
+  EXPECT_FALSE(s.found);
+  EXPECT_NE(s.reason.find("friction holds M, bl, cyl at the end"), std::string::npos) << s.reason;
+}
+
 // Two decades below the stiffest run's own difference: the limit, where the runs' errors are smaller still.
 TEST(Stiffen, TheLimitIsTwoDigitsBetterThanTheStiffestRun) {
   StiffenRequest request;

@@ -332,7 +332,7 @@ TEST(SettledStart, LoosePinsThatStickComeToRest) {
   }
 }
 
-// It takes 90 s in the fluid in which its post no longer swings.
+// It sinks long and steadily in the fluid in which its post no longer swings.
 TEST(SettledStart, ARiderSinksIntoTheElastomerOfALoosePost) {
   const Trajectory run = completed(reference::test_model("seat_post_with_play"));
   EXPECT_NEAR(value(run, 0, "joint.rail.on_frame.fy[world]"), 80.7 * 9.80665, 1e-3);
