@@ -139,34 +139,61 @@ PINTLE_LANES V product(const Block<T, N>& A, const V& x) {
   return y;
 }
 
-/// The inverse by Gauss-Jordan elimination in place; false when a pivot is zero or not finite.
+/// The row swaps of a pivoted factorisation, in order: row c with row swaps[c].
+template <int N>
+struct RowSwaps {
+  std::array<int, N> with{};
+  int& operator[](int c) { return with[c]; }
+  int operator[](int c) const { return with[c]; }
+};
+
+template <bool kAny, int N, class Swap>
+PINTLE_LANES void swap_rows(const RowSwaps<N>& swaps, Swap&& swap) {
+  if constexpr (kAny)
+    for (int c = 0; c < N; ++c)
+      if (swaps[c] != c) swap(c, swaps[c]);
+}
+
+/// Strictly below the diagonal: a unit lower triangle becomes its inverse.
 template <class T, int N>
-PINTLE_LANES bool invert(Block<T, N>& m) {
-  int order[N];
+PINTLE_LANES void invert_unit_lower(Block<T, N>& m) {
+  for (int i = 1; i < N; ++i)
+    for (int j = 0; j < i; ++j) {
+      T sum = m(i, j);
+      for (int k = j + 1; k < i; ++k) sum += m(i, k) * m(k, j);
+      m(i, j) = -sum;
+    }
+}
+
+/// P A = L D U in place: the strict triangles become those of L^-1 and U^-1, the diagonal D^-1. Solving with the factors, unlike multiplying by an explicit
+/// inverse, keeps a nearly singular block from contaminating the rest of the matrix. False when a pivot is zero or not finite.
+template <class T, int N>
+PINTLE_LANES bool factorize_pivoted(Block<T, N>& m, RowSwaps<N>& swaps) {
   T pivots = T(0.0);
   for (int c = 0; c < N; ++c) {
-    order[c] = c;
+    swaps[c] = c;
     if constexpr (kPivots<T>) {
       for (int r = c + 1; r < N; ++r)
-        if (magnitude(m(r, c)) > magnitude(m(order[c], c))) order[c] = r;
-      if (order[c] != c)
-        for (int j = 0; j < N; ++j) std::swap(m(order[c], j), m(c, j));
+        if (magnitude(m(r, c)) > magnitude(m(swaps[c], c))) swaps[c] = r;
+      if (swaps[c] != c)
+        for (int j = 0; j < N; ++j) std::swap(m(swaps[c], j), m(c, j));
     }
-    const T scale = reciprocal(m(c, c));
-    pivots += scale + 0.0 * m(c, c);
-    m(c, c) = T(1.0);
-    for (int j = 0; j < N; ++j) m(c, j) = scale * m(c, j);
-    for (int r = 0; r < N; ++r) {
-      if (r == c) continue;
-      const T f = m(r, c);
-      m(r, c) = T(0.0);
-      for (int j = 0; j < N; ++j) m(r, j) -= f * m(c, j);
+    const T inverse = reciprocal(m(c, c));
+    pivots += inverse + 0.0 * m(c, c);
+    for (int i = c + 1; i < N; ++i) {
+      m(i, c) = m(i, c) * inverse;
+      for (int j = c + 1; j < N; ++j) m(i, j) -= m(i, c) * m(c, j);
     }
+    for (int j = c + 1; j < N; ++j) m(c, j) = inverse * m(c, j);
+    m(c, c) = inverse;
   }
-  if constexpr (kPivots<T>)
-    for (int c = N - 1; c >= 0; --c)
-      if (order[c] != c)
-        for (int i = 0; i < N; ++i) std::swap(m(i, order[c]), m(i, c));
+  invert_unit_lower(m);
+  for (int j = N - 1; j > 0; --j)
+    for (int i = j - 1; i >= 0; --i) {
+      T sum = m(i, j);
+      for (int k = i + 1; k < j; ++k) sum += m(i, k) * m(k, j);
+      m(i, j) = -sum;
+    }
   return is_finite(pivots);
 }
 
@@ -174,22 +201,18 @@ PINTLE_LANES bool invert(Block<T, N>& m) {
 /// is zero or not finite.
 template <class T, int N>
 PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {
-  T lower[N][N], pivots = T(0.0);
+  T lower[N], pivots = T(0.0);
   for (int c = 0; c < N; ++c) {
     const T inverse = reciprocal(m(c, c));
     pivots += inverse + 0.0 * m(c, c);
     for (int i = c + 1; i < N; ++i) {
-      lower[i][c] = m(i, c) * inverse;
-      for (int j = c + 1; j <= i; ++j) m(i, j) -= lower[i][c] * m(j, c);
+      lower[i] = m(i, c) * inverse;
+      for (int j = c + 1; j <= i; ++j) m(i, j) -= lower[i] * m(j, c);
     }
+    for (int i = c + 1; i < N; ++i) m(i, c) = lower[i];
     m(c, c) = inverse;
   }
-  for (int i = 1; i < N; ++i)
-    for (int j = 0; j < i; ++j) {
-      T sum = lower[i][j];
-      for (int k = j + 1; k < i; ++k) sum += lower[i][k] * m(k, j);
-      m(i, j) = -sum;
-    }
+  invert_unit_lower(m);
   return is_finite(pivots);
 }
 
@@ -199,6 +222,42 @@ PINTLE_LANES void apply_lower(const Block<T, N>& m, Block<T, N>& B) {
   for (int i = N - 1; i > 0; --i)
     for (int j = 0; j < i; ++j)
       for (int c = 0; c < N; ++c) B(i, c) += m(i, j) * B(j, c);
+}
+
+/// B becomes B U^-1 D^-1, of a block factorised with pivoting.
+template <class T, int N>
+PINTLE_LANES void apply_upper_from_right(const Block<T, N>& m, Block<T, N>& B) {
+  for (int j = N - 1; j >= 0; --j)
+    for (int r = 0; r < N; ++r) {
+      T sum = B(r, j);
+      for (int i = 0; i < j; ++i) sum += B(r, i) * m(i, j);
+      B(r, j) = sum * m(j, j);
+    }
+}
+
+/// x becomes L^-1 P x.
+template <class V, class T, int N>
+PINTLE_LANES void apply_lower_pivoted(const Block<T, N>& m, const RowSwaps<N>& swaps, V& x) {
+  swap_rows<kPivots<T>>(swaps, [&x](int a, int b) { std::swap(x[a], x[b]); });
+  for (int i = N - 1; i > 0; --i)
+    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
+}
+
+/// B becomes L^-1 P B.
+template <class T, int N>
+PINTLE_LANES void apply_lower_pivoted(const Block<T, N>& m, const RowSwaps<N>& swaps, Block<T, N>& B) {
+  swap_rows<kPivots<T>>(swaps, [&B](int a, int b) {
+    for (int c = 0; c < N; ++c) std::swap(B(a, c), B(b, c));
+  });
+  apply_lower(m, B);
+}
+
+/// x becomes U^-1 D^-1 x.
+template <class V, class T, int N>
+PINTLE_LANES void apply_upper(const Block<T, N>& m, V& x) {
+  for (int i = 0; i < N; ++i) x[i] = m(i, i) * x[i];
+  for (int i = 0; i < N - 1; ++i)
+    for (int j = i + 1; j < N; ++j) x[i] += m(i, j) * x[j];
 }
 
 /// B becomes M' B.

@@ -246,16 +246,51 @@ TEST(BlockLu, ValuesThatAreNotNumbersAreReported) {
   }
 }
 
-TEST(Block, InversePivotsWithinTheBlock) {
+TEST(Block, FactorisationPivotsWithinTheBlock) {
   Block<double, 3> m;
   m(0, 1) = 2;
   m(1, 2) = 4;
   m(2, 0) = 8;
-  const Block<double, 3> before = m;
-  ASSERT_TRUE(invert(m));
-  const Block<double, 3> one = product(before, m);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) EXPECT_EQ(one(i, j), i == j ? 1 : 0);
+  RowSwaps<3> swaps;
+  ASSERT_TRUE(factorize_pivoted(m, swaps));
+  BlockVec<double, 3> x;
+  x[0] = 2;
+  x[1] = 8;
+  x[2] = 24;
+  apply_lower_pivoted(m, swaps, x);
+  apply_upper(m, x);
+  EXPECT_EQ(x[0], 3);
+  EXPECT_EQ(x[1], 1);
+  EXPECT_EQ(x[2], 2);
+}
+
+// A bar on a stiff pin is nearly free to turn: what little its inertia resists must not be lost in the pin's stiffness when it is eliminated first.
+TEST(BlockLu, NearlySingularPivotBlocksLeaveTheRestExact) {
+  const BlockPattern pattern(2, {{0, 1}});
+  const double k = 1e8, m = 1e-2, lever = 0.3;
+  for (const Symmetry symmetry : {Symmetry::kSymmetric, Symmetry::kNone}) {
+    BlockLu<double, 3> lu(pattern, symmetry);
+    // k G' G + m, with G the displacement of the pin: that of the first body's end less that of the second body's centre.
+    const double first[2][3] = {{1, 0, 0.6 * lever}, {0, 1, 0.8 * lever}};
+    const BlockPattern::Slot up = pattern.slot(0, 1), down = pattern.slot(1, 0);
+    lu.set_diagonal([&](int, int) { return m; });
+    for (int g = 0; g < 2; ++g) {
+      lu.diagonal(1)(g, g) += k;
+      for (int c = 0; c < 3; ++c) {
+        for (int d = 0; d < 3; ++d) lu.diagonal(0)(c, d) += k * first[g][c] * first[g][d];
+        if (lu.has(up)) lu.off_diagonal(up)(c, g) -= k * first[g][c];
+        if (lu.has(down)) lu.off_diagonal(down)(g, c) -= k * first[g][c];
+      }
+    }
+    ASSERT_TRUE(lu.factorize());
+    std::vector<Eigen::Vector3d> x(2, Eigen::Vector3d::Zero());
+    x[1] << 1, 0, 0;  // a force on the second body: it moves as if the first body's inertia at the pin were added
+    lu.solve(x);
+    const Eigen::Matrix2d resists = m * (2 * Eigen::Matrix2d::Identity() - Eigen::Vector2d(0.6, 0.8) * Eigen::RowVector2d(0.6, 0.8) * (lever * lever / (1 + lever * lever)));
+    const Eigen::Vector2d exact = resists.inverse() * Eigen::Vector2d(1, 0);
+    EXPECT_NEAR(x[1][0], exact[0], 1e-6 * exact.norm()) << (symmetry == Symmetry::kNone);
+    EXPECT_NEAR(x[1][1], exact[1], 1e-6 * exact.norm());
+  }
 }
 
 // Elimination done on sets: neighbours of an eliminated row become neighbours of each other.
