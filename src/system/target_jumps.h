@@ -57,7 +57,7 @@ std::optional<TargetJump> first_target_jump(const BasicSystem<S>& system, double
     double low = t0, high = t1;
     for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) (is_beyond(middle) ? high : low) = middle;
     if (first && first->t <= low) continue;
-    if (const auto jump = target_jump(system, j, low, high)) first = jump;
+    if (const auto jump = target_jump(system, j, low, std::nextafter(high, t1))) first = jump;  // at the switch itself an expression may still have the value before it
   }
   return first;
 }
