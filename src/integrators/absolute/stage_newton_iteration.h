@@ -256,8 +256,7 @@ typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Join
   return map;
 }
 
-// A gap of functions of the pose: puts their gradients into the map, their convective accelerations into `bias`. theory/joints Eq.
-// (2.14).
+// A gap of functions of the pose: their gradients go into the map, their convective accelerations into `bias`. joints Eq. (2.14).
 template <class S, int N>
 void LaneStageSolver<S, N>::find_gradients(const Joint& joint, typename S::template GapMap<L>& map, L (&bias)[S::kDof]) const {
   const BasicJointData<S>& data = system_.joints[joint.index];

@@ -1,5 +1,4 @@
-// Bounds on the geometric stiffness of loaded joints, as stiffnesses of single bodies, whatever its sign. theory/time section
-// 4.1.
+// Bounds on the geometric stiffness of loaded joints, as stiffnesses of single bodies, of any sign. theory/time section 4.1.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,7 @@ namespace pintle {
 template <class S>
 class BasicChatteringDetector {
  public:
-  /// Call after each crossing, with the instants before and after it: the jump, if it has been crossed again within
+  /// Call after each crossing, with the instants before and after it: the jump if it has been crossed again within
   /// `soon`.
   std::optional<SlidingMode> crossed(const BasicSystem<S>& system, double t0, const std::vector<typename S::Motion>& m0, double t1,
                                   const std::vector<typename S::Motion>& m1, double soon);
@@ -39,9 +39,8 @@ struct RampSize {
 template <class S>
 RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double usual_step, double tolerance);
 
-/// Holds `jump` if the efforts of its two sides drive its argument back towards it, at the share of both that keeps the
-/// argument constant. `balance()` renews the accelerations for what is in `sliding`, `rate()` is then that of the argument, now
-/// `margin`.
+/// Holds `jump` if the efforts of its sides drive its argument back towards it, at the share of both that keeps the argument
+/// constant. `balance()` renews accelerations for what is in `sliding`, `rate()` is then that of the argument, now `margin`.
 template <class Balance, class Rate>
 bool enter_sliding(const SlidingMode& jump, double margin, const RampSize& size, std::vector<SlidingMode>& sliding, const Balance& balance,
                const Rate& rate) {

@@ -115,8 +115,7 @@ TEST(StepControl, ReachesAnEventSoonHoweverFarTheEndIs) {
   EXPECT_GT(method.t(), kEvent);
 }
 
-// A body at rest with a rounded position: a step's curve leads part of the way to an event, Taylor's series all the
-// way.
+// A body at rest, its position rounded: a step's curve leads part of the way to an event, Taylor's series all the way.
 class Resting {
  public:
   explicit Resting(double event) : at_(event) {}
