@@ -129,7 +129,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     load_motions(m);
   }
 
-  // In curved spaces the poses give angles only up to whole turns: their number is taken from the carried gap, and so are the turns of a belt and the slip of
+  // In curved spaces the poses give angles only up to whole turns: their number is taken from the carried gap. So are a belt's turns and the slip of
   // surfaces.
   Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map,
                   const BasicStage<S>& carried) const {

@@ -59,7 +59,7 @@ TEST(JointPull, IsNotLessThanTheGeometricStiffness) {
   }
 }
 
-// A bar of length L pulled by F at both ends: F L against rotation, whatever its sign. What a step resolves is
+// A bar of length L that F pulls at both ends: F L against rotation, whatever its sign. What a step resolves is
 // subtracted.
 TEST(JointPull, OfABarIsForceTimesLength) {
   const System system = build_system(sample::pendulum(1e8, 0));

@@ -15,8 +15,7 @@ namespace pintle {
 template <class S>
 class BasicChatteringDetector {
  public:
-  /// Call after each crossing, with the instants before and after it: the jump if it has been crossed again within
-  /// `soon`.
+  /// Call after each crossing, with the instants before and after: the jump if it has been crossed again within `soon`.
   std::optional<SlidingMode> crossed(const BasicSystem<S>& system, double t0, const std::vector<typename S::Motion>& m0, double t1,
                                   const std::vector<typename S::Motion>& m1, double soon);
   void forget() { last_.reset(); }

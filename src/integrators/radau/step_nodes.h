@@ -16,7 +16,7 @@ struct BasicStepNodes {
   std::vector<VecsOf<S>> a, gap_accel, force;
   std::vector<std::vector<double>> law_state, law_rate;  // of the laws' own states
   std::vector<std::array<double, 2>> power;  // supplied, lost [W]
-  /// In curved spaces: rates at the nodes of the bodies' increments from the start of the step, and what their integral misses at the
+  /// In curved spaces: the rates of the bodies' increments from the step's start at the nodes, and what their integral misses at the
   /// end.
   std::vector<VecsOf<S>> increment_rate{};
   VecsOf<S> increment_bend{};
