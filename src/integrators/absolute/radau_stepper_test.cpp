@@ -61,8 +61,7 @@ TEST(RadauStepper, FiveStagesReachForcesThatThreeDoNot) {
   EXPECT_LT(errors_of_fixed_steps(sample::four_bar(1e12, matching_damping(1e12)), 0.1, {8}, 5).force.front(), 2e-8);
 }
 
-// Measured: 4.9 in motion; in force 4.9 from 1e10 N/m on, 4.0 at 1e8 N/m, where the step approaches the period of the
-// vibration.
+// Measured: 4.9 in motion; in force 4.9 from 1e10 N/m on, 4.0 at 1e8 N/m, where the step nears the vibration's period.
 TEST(RadauStepper, PendulumForcesConvergeLikeItsMotion) {
   for (const double k : {1e8, 1e10, 1e12}) {
     const Errors e = errors_of_fixed_steps(sample::pendulum(k, matching_damping(k)), 0.4, {16, 32});
@@ -224,8 +223,7 @@ TEST(RadauStepper, CarriedGapsAreThoseOfThePositions) {
   }
 }
 
-// The accelerations of a start may not be those that its forces give. No step resolves that: it is detected, and steps do not
-// shrink.
+// The accelerations of a start may not be those that its forces give. No step resolves that: it is detected, without small steps.
 TEST(RadauStepper, AStartThatDoesNotFitCostsAFewTrials) {
   const Model model = sample::four_bar(1e8, 3000);
   const System system = build_system(model);

@@ -40,7 +40,7 @@ class Predictor {
  private:
   static constexpr double kFar = 10;  // tolerances: above this first correction another degree may save an iteration. 0, 5 and 20 change steps and iterations of 21 models by 1.6 % at most
   static constexpr int kLine = 1, kParabola = 2;                      // degrees
-  static constexpr double kLongForParabola = 1.3, kLongForLine = 1.8;  // ratio of long steps above which stages are guessed by a parabola, which takes the fewest iterations in steps that grow; above which by a line
+  static constexpr double kLongForParabola = 1.3, kLongForLine = 1.8;  // ratio of long steps above which stages are guessed by a parabola, which takes the fewest iterations in steps that grow; ratio above which they are guessed by a line
 
   int degree(const RadauTable& table, double ratio) const {
     if (steps_ == Steps::kAccurate) return parabola_ ? kParabola : table.n;

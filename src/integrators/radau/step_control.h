@@ -90,7 +90,7 @@ class StepControl {
   static constexpr double kOnTheWay = 0.01;
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // factor on the step for which the error would equal the tolerance; smallest ratio of two steps; largest ratio; largest ratio after the first step
 
-  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // step ratios between which the step is kept, and with it the factorised Jacobians: lower and upper limit
+  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // smallest step ratio for which the step is kept, and with it the factorised Jacobians; largest such ratio
 
   static constexpr double kLeastError = 0.01;  // relative to the tolerance: a smaller error is no guide to its growth
 
