@@ -99,7 +99,7 @@ std::vector<Bends> bends_in_time(const BasicSystem<S>& system, double from, doub
 
 template <class S>
 std::vector<double> kinks_in_time(const BasicSystem<S>& system, double from, double to) {
-  constexpr std::size_t kMost = 1000000;  // of one table: more of them, as of a motor's turns in a long run, would fill the memory
+  constexpr std::size_t kMost = 1000000;  // of one table, at most: more, as of a motor's turns in a long run, would fill the memory
   std::vector<double> all;
   for (const Expression* f : functions_of_time(system)) {
     const std::vector<double> places = switching_points(*f, from, to, kParts, kMost);

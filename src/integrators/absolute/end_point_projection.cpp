@@ -15,7 +15,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kTautPasses = 2;  // after the first: what remains is the cube of what one pass leaves, Eq. (4.8)
+constexpr int kTautPasses = 2;  // passes after the first: what remains is the cube of what one pass leaves, Eq. (4.8)
 
 constexpr double kMostOfRates = 1e-9;  // fraction of the largest velocity: upper limit on what may be left of rates in the shortest steps
 
@@ -129,8 +129,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     load_motions(m);
   }
 
-  // In curved spaces the poses give angles only up to whole turns: their number is taken from the carried gap. So are a belt's turns and the slip of
-  // surfaces.
+  // In curved spaces the poses give angles only up to whole turns: their number comes from the carried gap, as do a belt's turns and surface slip.
   Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map,
                   const BasicStage<S>& carried) const {
     Kinematics r;

@@ -116,7 +116,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   Predictor predictor_;
   bool relinearizes_ = false;                // some law is linearised again
   static constexpr double kSlow = 0.4;       // contraction rate above which Jacobians of an earlier step do not serve this one
-  static constexpr int kMostWithOld = 4;     // iterations with them, at most. The rule for new ones, 0.15 and no such limit, costs as much, but what it leaves makes the momentum of a rub and bristles at 1e-5 miss their stated errors
+  static constexpr int kMostWithOld = 4;     // iterations with Jacobians of an earlier step, at most. The rule for new ones, 0.15 and no such limit, costs as much, but what it leaves makes the momentum of a rub and bristles at 1e-5 miss their stated errors
   double factorized_for_ = 0;                 // step size of the factorisation; 0: none
   bool loads_;                                // there are loads other than weight
   static constexpr std::size_t kTile = 16;    // bodies that fit into the innermost cache, with their joints

@@ -69,7 +69,7 @@ bool LaneStageSolver<S, N>::miss_states(const Joint& joint, const General& gener
     for (int z = 0; z < tangents.n; ++z) worst = larger_size(worst, (joint.over_scale[k] * tangents.force_by_state[k][z] * step_.c[N - 1]) * general.residual[z]);
   for (int s = 0; s < N; ++s)
     if (worst[s] > NewtonContraction::kShare * tolerance_) return true;
-  constexpr double kOfItself = 0.3;  // fraction of a state's size
+  constexpr double kOfItself = 0.3;  // fraction of a state's size, above which what is missing in it is solved for
   for (std::size_t z = 0; z < general.state.size(); ++z) {
     double size = 0, missing = 0;
     for (int s = 0; s < N; ++s) {

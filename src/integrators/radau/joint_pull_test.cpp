@@ -59,8 +59,7 @@ TEST(JointPull, IsNotLessThanTheGeometricStiffness) {
   }
 }
 
-// A bar of length L that F pulls at both ends: F L against rotation, whatever its sign. What a step resolves is
-// subtracted.
+// A bar of length L that F pulls at both ends: F L against rotation, whatever its sign. What a step resolves is taken off.
 TEST(JointPull, OfABarIsForceTimesLength) {
   const System system = build_system(sample::pendulum(1e8, 0));
   std::vector<S::Motion> m;

@@ -25,12 +25,12 @@ class StepControl {
   bool have_history = false;             // the last step's curve continues into the next one
   bool behind_event = false;             // the next step is the first after an event
 
-  // Events; distances as fractions of the usual step.
-  static constexpr double kCrossing = 1e-9;  // upper limit on how far the first attempt at crossing an event goes beyond it
-  static constexpr double kLate = 1e-4;      // the same, per unit tolerance: all passes cross an event equally late, so their difference does not show it. Without it the break-away of a stuck slider at 1e-7 is 2e-9 s late
+  // Events.
+  static constexpr double kCrossing = 1e-9;  // upper limit, as a fraction of the usual step, on how far the first attempt at crossing an event goes beyond it
+  static constexpr double kLate = 1e-4;      // the same, per unit of the steps' tolerance: all passes cross an event equally late, so their difference does not show it. Without it the break-away of a stuck slider at 1e-7 is 2e-9 s late
   static constexpr double kAboveRounding = 2;     // this multiple of the rounding error met so far is subtracted from the error: rounding differs from step to step
-  static constexpr double kAtOnce = 1e-2;    // a jump that is crossed again within this distance may be held
-  static constexpr double kMoment = 1e-6;    // distance over which motions are extrapolated to see where accelerations lead
+  static constexpr double kAtOnce = 1e-2;    // fraction of the usual step: a jump that is crossed again within it may be held
+  static constexpr double kMoment = 1e-6;    // fraction of the usual step over which motions are extrapolated to see where accelerations lead
 
   void start(double h) {
     next = usual = h;
@@ -79,10 +79,10 @@ class StepControl {
   static constexpr double kShrink = 0.5;          // ratio of steps after Newton's iteration failed; also the most by which its contraction rate shortens the next step
   static constexpr double kContraction = 0.2;     // contraction rate of Newton's iteration for which steps are chosen
   static constexpr double kSteady = 0.9;          // fraction of the error of the previous attempt: above it, a shorter step has not reduced the error
-  static constexpr int kMostSteady = 3;           // such attempts, after which the error is attributed to the accelerations at the start of the step
+  static constexpr int kMostSteady = 3;           // shorter steps in a row that have not reduced the error, after which it is attributed to the accelerations at the start of the step
   static constexpr double kMostRounding = 1e-11;  // fraction of the loads, a hundredth of the smallest tolerance: the largest error that may be rounding
   static constexpr double kVeryShort = 1e-6;      // fraction of the run: shorter steps that do not grow may have reached a floor of rounding
-  static constexpr int kMostAtFloor = 20;         // such steps in a row, after which one twice as long is tried
+  static constexpr int kMostAtFloor = 20;         // very short steps in a row, after which one twice as long is tried
   static constexpr double kShort = 0.9;           // fraction of the distance to an event that is only estimated: the next attempt covers this much
   static constexpr double kAfterEvent = 0.3;      // fraction of the usual step: lower limit on the first step after an event, where no error is known
   // Fraction of the distance to an event: a step limited by its error to less than this is a usual one. For the block in LinearContact half of it rejects 2400
@@ -90,7 +90,7 @@ class StepControl {
   static constexpr double kOnTheWay = 0.01;
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // factor on the step for which the error would equal the tolerance; smallest ratio of two steps; largest ratio; largest ratio after the first step
 
-  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // smallest step ratio for which the step is kept, and with it the factorised Jacobians; largest such ratio
+  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // smallest step ratio for which the step is kept, and with it the factorised Jacobians; largest ratio for which it is kept
 
   static constexpr double kLeastError = 0.01;  // relative to the tolerance: a smaller error is no guide to its growth
 
