@@ -171,7 +171,7 @@ void LaneStageSolver<S, N>::check_angles(const L& angles, std::size_t first, std
   for (std::size_t b = first; b < end; ++b) bodies_[b].check();
 }
 
-// The joint's force at its gaps and their rates. Adds to `worst` and `sum` its change, over the scale of the bodies that it acts on.
+// The joint's force at its gaps and their rates. Updates `worst` and `sum` by its change, over the scale of the bodies that it acts on.
 template <class S, int N>
 void LaneStageSolver<S, N>::place_joint(const BasicState<S>& begin, Joint& joint, L& worst, L& sum) {
   const typename S::Vec &gap_there = begin.gap[joint.index], &rate_there = begin.gap_rate[joint.index];
@@ -208,8 +208,8 @@ void LaneStageSolver<S, N>::find_loads(const BasicState<S>& begin, double h) {
   }
 }
 
-// The loads that the last correction has assumed. A motor that is held at a jump has a ramp so steep that the effort at a velocity
-// known to its last bits is less accurate.
+// The loads that the last correction has assumed. The ramp of a motor that is held at a jump is so steep that the rounding of a
+// velocity makes its effort less accurate than this.
 template <class S, int N>
 void LaneStageSolver<S, N>::find_balanced_loads() {
   for (std::size_t b = 0; b < n_bodies(); ++b)
@@ -256,7 +256,7 @@ typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Join
   return map;
 }
 
-// A gap of functions of the pose: their gradients go into the map, their convective accelerations into `bias`. joints Eq. (2.14).
+// A gap of functions of the pose: gradients go into the map, convective accelerations into `bias`. theory/joints Eq. (2.14).
 template <class S, int N>
 void LaneStageSolver<S, N>::find_gradients(const Joint& joint, typename S::template GapMap<L>& map, L (&bias)[S::kDof]) const {
   const BasicJointData<S>& data = system_.joints[joint.index];
