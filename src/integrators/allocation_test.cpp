@@ -1,5 +1,5 @@
-// No memory is asked for between two accepted steps. The global operator new is replaced in this file; it counts while a
-// flag is up and is otherwise plain malloc.
+// No memory is allocated between two accepted steps. The global operator new is replaced in this file; it counts while a
+// flag is set and is otherwise plain malloc.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -34,7 +34,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
 
 }  // namespace
 
-// Every form is replaced: a sanitizer's own form beside one of these would call new and delete mismatched.
+// Every form is replaced: a sanitizer's own form next to one of these would mismatch new and delete.
 void* operator new(std::size_t size) { return allocate(size, 1); }
 void* operator new[](std::size_t size) { return allocate(size, 1); }
 void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
@@ -114,7 +114,7 @@ TEST(Allocations, NoneBetweenAcceptedImplicitSteps) {
     }
 }
 
-// The kinks of two loads are passed: 40 of them in a second.
+// Passes the kinks of two loads: 40 of them in a second.
 TEST(Allocations, NoneAcrossEvents) {
   Model model = sample::pendulum(1e8, 3000);
   AppliedForce force;

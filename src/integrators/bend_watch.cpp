@@ -18,10 +18,10 @@
 namespace pintle {
 namespace {
 
-constexpr int kParts = 2000;  // of the run, at whose ends loads and motors are looked at: as dear as a few steps
-constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
+constexpr int kParts = 2000;  // parts of the run, at whose ends loads and motors are evaluated: costs as much as a few steps
+constexpr int kFewParts = 8;  // parts of a step, at least: more than it has stages
 
-// Half-way, in angle, between the samples of a step's forces (ForceSamples), and what these weigh there.
+// The points half-way, in angle, between the samples of a step's forces (ForceSamples), and the samples' weights there.
 struct BetweenSamples {
   static constexpr int kN = ChebyshevNodes::kN - 1;  // one between every two
   ChebyshevNodes nodes;
@@ -36,7 +36,7 @@ struct BetweenSamples {
   }
 };
 
-// What the polynomial through the values of f at the samples misses between them: the largest `size` of it.
+// The largest `size` of the error between the samples of the polynomial through the values of f at the samples.
 template <class F, class Size>
 double missed_between(const F& f, const Size& size) {
   static const BetweenSamples between;
@@ -52,7 +52,7 @@ double missed_between(const F& f, const Size& size) {
   return largest;
 }
 
-// By the coordinates and speeds at both ends of a step of h.
+// Interpolated from the coordinates and speeds at both ends of a step of h.
 Planar::Motion between(const Planar::Motion& start, const Planar::Motion& end, double h, double x) {
   const auto coordinates = [](const Planar::Motion& m) { return Planar::Vec(m.p.x(), m.p.y(), m.angle); };
   const auto speeds = [](const Planar::Motion& m) { return Planar::Vec(m.v.x(), m.v.y(), m.w); };
@@ -60,7 +60,7 @@ Planar::Motion between(const Planar::Motion& start, const Planar::Motion& end, d
   return Planar::Motion::of(cubic_hermite(x, h, q0, v0, q1, v1), cubic_hermite_slope(x, h, q0, v0, q1, v1));
 }
 
-// What varies of the loads, motors and driven lengths that are functions of time alone.
+// The functions of loads, motors and driven lengths that vary with time alone.
 template <class S>
 std::vector<const Expression*> functions_of_time(const BasicSystem<S>& system) {
   std::vector<const Expression*> all;
@@ -74,7 +74,7 @@ std::vector<const Expression*> functions_of_time(const BasicSystem<S>& system) {
   return all;
 }
 
-// The share of a step that leads to between the first two kinks in it, so that the first is met; 1: there are no two.
+// The share of a step up to a point between its first two kinks, so that it passes only the first; 1: there is none.
 double share_to_one_kink(const std::vector<double>& kinks, double t, double h) {
   const double rounding = kLastBits * std::abs(t + h);
   const auto first = std::upper_bound(kinks.begin(), kinks.end(), t + rounding);
@@ -99,7 +99,7 @@ std::vector<Bends> bends_in_time(const BasicSystem<S>& system, double from, doub
 
 template <class S>
 std::vector<double> kinks_in_time(const BasicSystem<S>& system, double from, double to) {
-  constexpr std::size_t kMost = 1000000;  // of one table: more of them, as of a motor's turns in a long run, would fill the memory
+  constexpr std::size_t kMost = 1000000;  // of one table, at most: more, as of a motor's turns in a long run, would fill the memory
   std::vector<double> all;
   for (const Expression* f : functions_of_time(system)) {
     const std::vector<double> places = switching_points(*f, from, to, kParts, kMost);
@@ -150,7 +150,7 @@ double BasicBendWatch<S>::place(const Way& way, const std::vector<typename S::Mo
   return pose.z[0];
 }
 
-// The place on a cam is known up to whole turns, and turns with the follower.
+// The position on a cam is known up to whole turns, and turns with the follower.
 template <class S>
 double BasicBendWatch<S>::place_at_end(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
   const double to = place(way, end);
@@ -166,7 +166,7 @@ typename BasicBendWatch<S>::ReadInStep BasicBendWatch<S>::read_in_step(const Bas
   ReadInStep read{load, t, h, start, end, system_.signal_values(load, t, start), system_.signal_values(load, t + h, end), 0};
   if constexpr (!S::kCurved)
     for (const BasicSignal<S>& signal : load.signals) {
-      if (signal.is_time || signal.component >= S::kDim) continue;  // angles go on straight ways
+      if (signal.is_time || signal.component >= S::kDim) continue;  // angles follow straight ways
       for (const int b : {signal.at.a, signal.at.b})
         if (b != kGround) read.turn = std::max(read.turn, std::abs(end[b].angle - start[b].angle));
     }
@@ -175,20 +175,20 @@ typename BasicBendWatch<S>::ReadInStep BasicBendWatch<S>::read_in_step(const Bas
 
 template <class S>
 bool BasicBendWatch<S>::ReadInStep::is_straight() const {
-  constexpr double kFarTurn = 0.3;  // [rad]. With 3 a rotor that turns in a field ends with exit code 7; 0.15 and 0.6 are as good
+  constexpr double kFarTurn = 0.3;  // [rad]: rotation up to which ways are straight. With 3 a rotor that turns in a field ends with exit code 7; 0.15 and 0.6 are as good
   return turn <= kFarTurn;
 }
 
-// A step ends where its motors jump, or slides along it.
+// A step ends where its motors jump, or slides along the jump.
 template <class S>
 bool BasicBendWatch<S>::ReadInStep::jumps() const {
   return load.law.jump_between({from.data(), load.signals.size()}, {to.data(), load.signals.size()}).has_value();
 }
 
-// What it reads changes so little that rounding is a good part of how its effort bends.
+// Whether its readings change so little that the curvature of its effort is largely rounding.
 template <class S>
 bool BasicBendWatch<S>::ReadInStep::stays() const {
-  constexpr double kLittle = 1e-9;  // of what it reads. With 0 a block that sticks takes 9 times the steps
+  constexpr double kLittle = 1e-9;  // fraction of its readings. With 0 a block that sticks takes 9 times the steps
   if (!is_straight()) return false;
   for (std::size_t s = 0; s < load.signals.size(); ++s)
     if (!load.signals[s].is_time && std::abs(to[s] - from[s]) > kLittle * std::max(std::abs(from[s]), std::abs(to[s]))) return false;
@@ -213,12 +213,12 @@ double BasicBendWatch<S>::effort_at(const ReadInStep& read, double x) {
 
 template <class S>
 double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
-  constexpr double kPerTurn = 720;  // parts of a turn, at which it is looked at what reads places. With 8 three of 18 rotors in narrow fields end with exit code 7; 360 and 1440 are as good
+  constexpr double kPerTurn = 720;  // parts of a turn, at which loads that read positions are evaluated. With 8 three of 18 rotors in narrow fields end with exit code 7; 360 and 1440 are as good
   if (!(h > apart_)) return 1;
   const ReadInStep read = read_in_step(load, t, h, start, end);
   if (read.stays() || read.jumps()) return 1;
   const double of_turn = read.is_straight() ? 0 : kPerTurn * read.turn / kTurn;
-  if (of_turn > kParts) return kParts / of_turn;  // no farther than can be looked at
+  if (of_turn > kParts) return kParts / of_turn;  // no farther than can be sampled
   const int n = static_cast<int>(std::min<double>(std::max({h / apart_, static_cast<double>(kFewParts), of_turn}), kParts));
   samples_.take([&](double x) { return effort_at(read, x); }, 0, 1, n);
   int passed = 0;
@@ -247,7 +247,7 @@ double BasicBendWatch<S>::share_of_step(double t, double h, double t_end, const 
   return share;
 }
 
-// Where surfaces turn round, within a small part of the way between their speeds at the start and at the end.
+// Where surfaces reverse their slip, in a small part of the way between their speeds at the start and at the end.
 template <class S>
 double BasicBendWatch<S>::missed_friction(int j, double t, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale) const {
   const BasicJointData<S>& joint = system_.joints[j];

@@ -1,5 +1,5 @@
-// States whose joint forces are what the laws make of positions and velocities: the plain equations of motion,
-// theory/time Eq. (1.1), as methods see them that carry nothing but (q, v).
+// States whose joint forces follow by the laws from positions and velocities: the plain equations of motion,
+// theory/time Eq. (1.1), for methods that carry only (q, v).
 #pragma once
 
 #include "system/state.h"

@@ -1,4 +1,4 @@
-// The borders of laws for methods that do not search a step's curve for events: looked at where a step ends.
+// The borders of laws for methods that do not search a step's curve for events: checked where a step ends.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class LawBorders {
     if (!before_.empty()) find(state, before_);
   }
   void begin_step() { n_shortened_ = 0; }
-  /// Makes h shorter where the step of h that ends at `end` goes too far beyond the first border that sets a law's states: it is to be repeated.
+  /// Shortens h where the step of h that ends at `end` goes too far beyond the first border at which a law sets its states. It is to be repeated.
   bool shorten(const State& end, double& h) {
     const double share = first_crossing(end);
     if (n_shortened_ == 0) longest_ = h;
@@ -28,10 +28,10 @@ class LawBorders {
     h *= share + 0.5 * kBehind;
     return true;
   }
-  /// Whether this step has been made shorter: its length says nothing about the next one's.
+  /// Whether this step has been shortened: its length is then no guide to the next one's.
   bool has_shortened() const { return n_shortened_ > 0; }
-  /// Lets the laws set their states where the step that ends at `end` has crossed their borders; what they store less then is dissipated. Whether
-  /// any has: forces are to be found anew, what was remembered of the step's curve does not go on, and `record` must follow.
+  /// Lets the laws set their states where the step that ends at `end` has crossed their borders; energy that they store less then is dissipated.
+  /// Returns whether any has: then forces must be recomputed, the step's curve does not continue into the next step, and `record` must follow.
   bool cross(State& end) {
     if (before_.empty()) return false;
     find(end, behind_);
@@ -40,10 +40,10 @@ class LawBorders {
     if (!crossed_) before_.swap(behind_);
     return crossed_;
   }
-  /// `end`, or what it was before the laws set their states there: where the curve of the step ends.
+  /// `end`, or the state before the laws set their states there: where the curve of the step ends.
   const State& before_event(const State& end) const { return crossed_ ? before_event_ : end; }
   bool crossed() const { return crossed_; }
-  /// Keeps what has been crossed, with the forces that the end has then.
+  /// Records what has been crossed, with the forces at the end after it.
   void record(const State& end) {
     record_crossings(system_, end, before_.data(), behind_.data(), crossings_);
     find(end, before_);
@@ -52,10 +52,10 @@ class LawBorders {
 
  private:
   static constexpr int kMostShortened = 12;  // times that one step is shortened for borders, at most
-  static constexpr double kBehind = 1e-3;    // of a step: so much of it may lie behind a border
-  static constexpr double kShortest = 1e-7;  // of the first trial: what is crossed so early has been met already
+  static constexpr double kBehind = 1e-3;    // fraction of a step that may lie beyond a border
+  static constexpr double kShortest = 1e-7;  // fraction of the first attempt: a border crossed this early has been dealt with already
 
-  // The share of the step after which the first border of a law with states is crossed, on a straight line; 1: none is.
+  // The share of the step at which the first border of a law with states is crossed, by linear interpolation; 1: none is.
   double first_crossing(const State& end) {
     double share = 1;
     if (before_.empty()) return share;
@@ -73,10 +73,10 @@ class LawBorders {
   std::vector<double> before_, behind_;  // values at the step's start and at its end
   std::vector<Planar::Motion> m_;
   std::vector<LawCrossing> crossings_;
-  State before_event_;  // the end of the last step, where laws have set their states there
+  State before_event_;  // the end of the last step before laws set their states there, if they did
   bool crossed_ = false;
   int n_shortened_ = 0;
-  double longest_ = 0;  // first trial of a step [s]
+  double longest_ = 0;  // first attempt at a step [s]
 };
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// What laws have gone through: every border of a law with states, or of one that tells its borders, that a run has crossed, and what the law reported just behind it.
+// The crossings of borders in a run: those of laws with states and of laws that report their borders, each with the law's report just after it.
 #pragma once
 
 #include <vector>
@@ -25,8 +25,8 @@ bool is_border_between(const BasicSystem<S>& system, const double* before, const
   return false;
 }
 
-/// Appends what lies between the values of the switching functions `before` and `after`, of which the latter are those of `state`; forces and the laws'
-/// states there are already the new ones. Borders of one name that are crossed together are one event. Beyond kMostCrossings nothing is kept.
+/// Appends the crossings between the values of the switching functions `before` and `after`. The latter are those of `state`, where forces and the
+/// laws' states are already the new ones. Borders of one name that are crossed together are one event. Beyond kMostCrossings nothing is kept.
 template <class S>
 void record_crossings(const BasicSystem<S>& system, const BasicState<S>& state, const double* before, const double* after, std::vector<LawCrossing>& crossings) {
   constexpr std::size_t kMostCrossings = 100000;  // crossings of borders that are kept for events.csv

@@ -13,8 +13,8 @@ void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S:
     typename S::Vec on_ground;
     const BasicJointKinematics<S> r = system.kinematics(j, state.t, m);
     const auto push = [&](const typename S::Vec& force) { r.map.push_magnitudes(force.data(), at.a != kGround ? load[at.a] : on_ground, at.b != kGround ? load[at.b] : on_ground); };
-    // What the joint holds and what else acts in it count one by one: on a light link, the couple of a pin's friction and the moment of the pin's force
-    // cancel. So do friction and what it holds still, such as the pressure in a cylinder.
+    // What the joint holds and what else acts in it are counted separately: on a light link, the couple of a pin's friction and the moment of the pin's
+    // force cancel. So do friction and what it holds still, such as the pressure in a cylinder.
     const BasicLaw<S>& law = system.joints[j].law;
     if (!law.rubs()) {
       push(state.force[j]);

@@ -9,21 +9,22 @@
 
 namespace pintle {
 
-/// How large the forces are that a relative tolerance refers to: per body the sum of the magnitudes of the loads on it.
+/// The size of the forces to which a relative tolerance refers: per body the sum of the magnitudes of the loads on it.
 template <class S>
 struct BasicLoadScale {
   VecsOf<S> body;  // as forces and moments on bodies [N, N*m]
 };
 using LoadScale = BasicLoadScale<Planar>;
 
-/// At least this much per mass, where nothing acts [m/s^2].
+/// Lower limit of loads per mass, where nothing acts [m/s^2].
 inline constexpr double kLeastLoad = 1e-9;
-/// Of a body's force scale at its radius of gyration: the least scale of its moments, and of its moments over that radius: the least of its forces.
+/// Lower limit on a body's moment scale, as a fraction of its force scale at its radius of gyration; and on its force scale, as a fraction of its
+/// moment scale over that radius.
 inline constexpr double kCoupleAtArm = 1e-3;
 
-/// Below this load [N] the rounding of coordinates of a size [m], as force of a joint of a stiffness [N/m], would be an error above the tolerance.
+/// The load [N] below which the rounding of coordinates of a size [m], as force of a joint of a stiffness [N/m], exceeds the tolerance.
 inline double load_above_rounding(double stiffness, double size, double tolerance) {
-  constexpr double kRoundings = 30;  // of a coordinate, in a gap
+  constexpr double kRoundings = 30;  // rounding of a gap, in roundings of a coordinate
   return kRoundings * std::numeric_limits<double>::epsilon() * size * stiffness / tolerance;
 }
 
@@ -33,7 +34,7 @@ typename S::Vec load_on(const BasicPlacement<S>& at, const BasicLoadScale<S>& sc
   return scale.body[at.a == kGround ? at.b : at.a].cwiseMax(scale.body[at.b == kGround ? at.a : at.b]);
 }
 
-/// The same in the axes of a gap, which are others than those of the loads.
+/// The same in the axes of a gap, which differ from those of the loads.
 template <class S>
 typename S::Vec load_in_gap_axes(const BasicPlacement<S>& at, const BasicLoadScale<S>& scale) {
   typename S::Vec load = load_on(at, scale);
@@ -41,8 +42,8 @@ typename S::Vec load_in_gap_axes(const BasicPlacement<S>& at, const BasicLoadSca
   return load;
 }
 
-/// What the force of a joint with states is measured by: the loads on its bodies, and for a couple that its law makes of its force
-/// the smaller of these loads at the lever: no more than that can press.
+/// The loads by which the force of a joint with states is measured: those on its bodies, and for a couple that its law makes of
+/// its force the smaller of these loads at the lever, since no larger force can press there.
 template <class S>
 typename S::Vec load_on(const BasicJointData<S>& joint, const BasicLoadScale<S>& scale) {
   typename S::Vec load = load_on(joint.at, scale);
@@ -53,7 +54,7 @@ typename S::Vec load_on(const BasicJointData<S>& joint, const BasicLoadScale<S>&
   return load;
 }
 
-/// The largest of forces over the loads: of accelerations of all bodies. Infinite where one is no finite number.
+/// The largest force over the loads, from the accelerations of all bodies. Infinite where one is not finite.
 template <class S>
 double over_loads(const BasicSystem<S>& system, const VecsOf<S>& accelerations, const BasicLoadScale<S>& scale) {
   double size = 0;
@@ -63,7 +64,7 @@ double over_loads(const BasicSystem<S>& system, const VecsOf<S>& accelerations, 
   }
   return size;
 }
-/// The same of accelerations that stand one after the other.
+/// The same for accelerations in a single vector.
 template <class S>
 double over_loads(const BasicSystem<S>& system, const Eigen::VectorXd& accelerations, const BasicLoadScale<S>& scale) {
   if (!accelerations.allFinite()) return std::numeric_limits<double>::infinity();
@@ -73,7 +74,7 @@ double over_loads(const BasicSystem<S>& system, const Eigen::VectorXd& accelerat
   return size;
 }
 
-/// Raises a body's scale to the sum of the magnitudes of what acts on it.
+/// Raises a body's scale to the sum of the magnitudes of the loads on it.
 template <class S>
 void raise_scale(const BasicBodyData<S>& body, const typename S::Vec& load, typename S::Vec& scale) {
   const double radius = body.radius_of_gyration();
@@ -83,7 +84,7 @@ void raise_scale(const BasicBodyData<S>& body, const typename S::Vec& load, type
   scale.template tail<S::kDof - S::kDim>().setConstant(std::max(moment, kCoupleAtArm * scale[0] * radius));
 }
 
-/// Raises `scale` to what acts on each body of `state`: m are the motions there, Q the external forces. `load` is room that is reused.
+/// Raises `scale` to the loads on each body of `state`: m are the motions there, Q the external forces. `load` is reused storage.
 template <class S>
 void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const VecsOf<S>& Q, const BasicState<S>& state, BasicLoadScale<S>& scale, VecsOf<S>& load);
 template <class S>
@@ -92,15 +93,15 @@ void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S:
   grow_load_scale(system, m, Q, state, scale, load);
 }
 
-/// Of each body: the load below which the rounding of positions, as force of these joints where `state` is, would be an error above the tolerance [N].
+/// For each body: the load below which the rounding of positions, as force of these joints at `state`, would be an error above the tolerance [N].
 template <class S>
 std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std::vector<int>& joints, const BasicState<S>& state, double tolerance);
 
-/// What the rounding of positions and angles may make of the forces of joints, and of their moments at the mechanism's arms, on each body [N, N*m].
+/// The largest effect of the rounding of positions and angles on the forces of joints, and their moments at the mechanism's arms, on each body [N, N*m].
 template <class S>
 void find_rounding_of_joint_forces(const BasicSystem<S>& system, const PositionsOf<S>& q, VecsOf<S>& rounding);
 
-/// Whether what the loads do at the motions m changes within a time d by no more than `most` of the scale. `now` and `then` are room that is reused.
+/// Whether the loads at the motions m change within a time d by no more than `most` of the scale. `now` and `then` are reused storage.
 template <class S>
 bool loads_stay_constant(const BasicSystem<S>& system, double t, double d, const std::vector<typename S::Motion>& m, SlidingModes sliding, double most, const BasicLoadScale<S>& scale, VecsOf<S>& now,
                          VecsOf<S>& then) {
@@ -114,7 +115,7 @@ bool loads_stay_constant(const BasicSystem<S>& system, double t, double d, const
   return true;
 }
 
-/// Raises the forces of the scale to such loads.
+/// Raises the forces of the scale to these loads.
 template <class S>
 void raise_above(const std::vector<double>& loads, BasicLoadScale<S>& scale) {
   for (std::size_t i = 0; i < loads.size(); ++i) scale.body[i].template head<S::kDim>() = scale.body[i].template head<S::kDim>().cwiseMax(loads[i]);

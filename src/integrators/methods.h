@@ -17,15 +17,15 @@ struct MethodChoice {
   PenaltySettings penalty{};     ///< of Equations::kPenalty
 };
 
-/// What the settings of a model ask for; "auto" is replaced by the method that it stands for.
+/// The method that a model's settings request; "auto" is replaced by the method that it stands for.
 MethodChoice resolve_method(const SimulateSettings& settings);
 
-/// Why there is no such method, for the user: not with these equations, or not in this build. Empty: there is.
+/// Why this method is not available, for the user: not with these equations, or not in this build. Empty: it is.
 std::string why_not(const MethodChoice& choice);
 
 /// A stepper on `system`, which must outlive it. Throws std::invalid_argument with the text of `why_not`.
 std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& choice, double tolerance);
-/// In space: newtonian radau alone.
+/// In space: newtonian radau only.
 std::unique_ptr<BasicStepper<Spatial>> make_stepper(const BasicSystem<Spatial>& system, const MethodChoice& choice, double tolerance);
 
 }  // namespace pintle

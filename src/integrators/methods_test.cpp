@@ -1,5 +1,5 @@
-// All methods by their words: they agree on the joint forces of a stiff pendulum, keep the energy account, and are refused
-// where they cannot be had.
+// All methods by their names: they agree on the joint forces of a stiff pendulum, keep the energy account, and are refused
+// where they are not available.
 #include "integrators/methods.h"
 
 #include <gtest/gtest.h>
@@ -63,14 +63,14 @@ TEST(Methods, AgreeOnTheForcesOfAStiffPendulum) {
   }
 }
 
-// With a damper and a driving force: what goes in and out is kept as well.
+// With a damper and a driving force: energy supplied and dissipated is accounted for as well.
 TEST(Methods, KeepTheEnergyAccountOfADrivenOscillator) {
   Model model = sample::oscillator();
   model.springs[0].damping = 1.5;
   const System system = build_system(model);
   const State from = sample::plain_start(model, system);
   for (const std::string& method : methods()) {
-    if (method == "dopri5") continue;  // its account is the trapezoidal rule's over long steps
+    if (method == "dopri5") continue;  // its account uses the trapezoidal rule over long steps
     const auto loose = run_method(system, from, method, 1e-4, 2), tight = run_method(system, from, method, 1e-8, 2);
     const double before = energy(system, from);
     EXPECT_NEAR(energy(system, tight->state()), before, 1e-4) << method;
@@ -79,7 +79,7 @@ TEST(Methods, KeepTheEnergyAccountOfADrivenOscillator) {
   }
 }
 
-// Smaller tolerances give smaller errors, on the closed form of the driven oscillator.
+// Smaller tolerances give smaller errors, against the closed form of the driven oscillator.
 TEST(Methods, ErrorsFollowTheTolerance) {
   const Model model = sample::oscillator();
   const System system = build_system(model);
@@ -114,7 +114,7 @@ TEST(Methods, InsideAStepTheMotionIsTheSame) {
   }
 }
 
-// More bodies than the dense solver takes: the sparse one does the same.
+// More bodies than the dense solver takes: the sparse one gives the same result.
 TEST(Methods, ManyBodiesAreNoDifferentMatter) {
   if (!has_sundials()) GTEST_SKIP() << "a build without SUNDIALS";
   Model model;

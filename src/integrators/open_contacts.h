@@ -1,4 +1,4 @@
-// Joints that are apart, and how well a step knows how far. theory/time section 3.4.
+// Joints that are apart, and how accurately a step knows their distance. theory/time section 3.4.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@ class BasicOpenContacts {
   explicit BasicOpenContacts(const BasicSystem<S>& system);
 
   bool empty() const { return joints_.empty(); }
-  /// What is not known of the gaps at the end of a step of h, less the rounding of positions up to `far`, as a force once the bodies have met, over the load
-  /// scale: the largest of the joints that are apart there. carried(j): joint j as the step has integrated it; kinematics(j): by the bodies' poses;
+  /// The uncertainty of the gaps at the end of a step of h, less the rounding of positions up to `far`, as a force once the bodies have met, over the load
+  /// scale: the largest of the joints that are apart there. carried(j): joint j as the step has integrated it; kinematics(j): from the bodies' poses;
   /// last_coefficient(b): the last Legendre coefficient of body b's acceleration. theory/time Eq. (3.23).
   template <class Carried, class Kinematics, class LastCoefficient>
   double error(double h, const Carried& carried, const Kinematics& kinematics, const LastCoefficient& last_coefficient, double far, const BasicLoadScale<S>& scale) const {
-    constexpr double kOfBend = 0.1;  // of the way that the last coefficient makes over a step: what a spring on the bodies, with half a period in it, does not resolve. With 0 a shift fork is late at its stop by 38 times the tolerance
+    constexpr double kOfBend = 0.1;  // fraction of the displacement by the last coefficient over a step: the unresolved part for a spring on the bodies with half a period in the step. With 0 a shift fork strikes its stop late, and its forces are wrong by 38 times the tolerance
     double largest = 0;
     for (const int j : joints_) {
       const BasicJointData<S>& joint = system_.joints[j];

@@ -20,7 +20,7 @@ System pendulum_on_a_rope() {
   return system;
 }
 
-// Where the rope has been integrated to, how much further away its bodies are, and the last coefficient of their acceleration along it over a step of 0.1 s.
+// The rope's gap as integrated, how much further apart its bodies are, and the last coefficient of their acceleration along it over a step of 0.1 s.
 double error_of(const System& system, double gap, double further, double far, double bend = 0) {
   LoadScale scale;
   scale.body.assign(system.bodies.size(), Planar::Vec::Constant(kLoad));
@@ -46,7 +46,7 @@ TEST(OpenContacts, ASlackRopeIsMeasuredByItsForceOnceItIsTaut) {
   }
 }
 
-// A tenth of what the last coefficient of the bodies' acceleration moves in the step.
+// A tenth of the displacement in the step by the last coefficient of the bodies' acceleration.
 TEST(OpenContacts, WhatAStepDoesNotResolveOfAFlightIsNotKnown) {
   const System system = pendulum_on_a_rope();
   EXPECT_NEAR(error_of(system, -0.01, 0, 0, 1e-4), kTaut * 0.1 * 0.01 * 1e-4 / kLoad, 1e-12);

@@ -1,4 +1,4 @@
-// States to start integrators from, made without the rooms on the right: plain ones, and ones whose joints carry the
+// Start states for integrators, made without the rooms to the right: plain ones, and ones whose joints carry the
 // reactions of ideal joints, found by dense elimination.
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace pintle::sample {
 
-/// The state as the model states it, without any joint preload beyond what its positions make.
+/// The state as the model states it, with no joint preload but that of its positions.
 State plain_start(const Model& model, const System& system);
 
-/// Mass, Jacobian and convective term as dense matrices, the gap's stiff components only (those with stiffness).
+/// Mass, Jacobian and convective term as dense matrices, for the gap's stiff components only (those with stiffness).
 struct DenseEquations {
   Eigen::VectorXd mass, Q, bias;
   Eigen::MatrixXd G;
@@ -32,7 +32,7 @@ State loaded_start(const Model& model, const System& system);
 
 /// A body of 2 kg on a spring of 50 N/m along x, driven by 3 cos(7 t) N; at rest at x = 1.5 m, free length 1 m.
 Model oscillator();
-/// Where it is at time t, and its speed.
+/// Its position and speed at time t.
 std::array<double, 2> oscillator_at(double t);
 
 /// A state on the joints' slow motion: the loaded start, followed for t seconds with a tight tolerance.
@@ -45,7 +45,7 @@ StageTails room_for_tails(const System& system);
 
 double largest_difference(const Vecs& a, const Vecs& b);
 
-/// Slope of log(error) over log(step) between neighbours, the errors those of steps halved each time: the smallest.
+/// The smallest slope of log(error) over log(step) between neighbours, for the errors of steps halved each time.
 double measured_order(const std::vector<double>& errors);
 
 }  // namespace pintle::sample

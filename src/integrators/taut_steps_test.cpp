@@ -1,6 +1,6 @@
-// The step's stability where geometric stiffness rules: two bars in line between two pins that pull, or push while a servo keeps them
-// straight. Over steps from a sixth of the period that the force makes to 160 of them, and joints from five times as fast as that to a
-// thousand times. theory/time section 4.1.
+// The step's stability where geometric stiffness dominates: two bars in line between two pins that pull, or push while a servo keeps
+// them straight. Over steps from a sixth of the period due to the force to 160 of them, and with joints from five times to a thousand
+// times as fast as that. theory/time section 4.1.
 #include <gtest/gtest.h>
 
 #include "integrators/absolute/radau_stepper.h"
@@ -9,8 +9,8 @@
 namespace pintle {
 namespace {
 
-// Bars of 1 m and 1 kg in line along x between two pins, with joints of k [N/m] and c [N s/m] that carry `force` [N]: a tension where
-// positive. The middle pin is `off` beside the line.
+// Bars of 1 m and 1 kg in line along x between two pins, with joints of k [N/m] and c [N s/m] under `force` [N]: a tension where
+// positive. The middle pin is off the line by `off`.
 Model bars_in_line(double k, double c, double force, double off) {
   const double stretch = force / k;
   Model model;
@@ -32,14 +32,14 @@ Model bars_in_line(double k, double c, double force, double off) {
 constexpr double kOff = 1e-9;
 constexpr int kSteps = 60;
 
-// What has become of the bars after steps of 1 s, at most: how far they have been out of line, with what their speed would make of it,
-// over what they were at first; and the joints' forces from what the pins demand, over that. Fixed steps are tried until one is not solved.
+// The largest values over steps of 1 s: how far the bars are out of line, including what their speed would lead to, over the initial value;
+// and the error of the joints' forces against what the pins require, over that. Fixed steps are tried until one is not solved.
 struct Growth {
   double motion = 0, force = 0;
   int steps = 0;
 };
 
-// Frequencies over that of the step: the one that the force makes, and that of a bar on its joints.
+// Frequencies relative to that of the step: the one due to the force, and that of a bar on its joints.
 struct Ratios {
   double pull, joints, damping;
 };
@@ -53,7 +53,7 @@ Growth growth(const Ratios& ratio, double sign, double tolerance, int stages) {
   Growth g;
   for (; g.steps < kSteps && stepper.trial(1); ++g.steps) {
     const State& state = stepper.state();
-    const double held = sign > 0 ? force : -3 * force;  // what holds a bar straight [N*m/rad]
+    const double held = sign > 0 ? force : -3 * force;  // stiffness that keeps a bar straight [N*m/rad]
     double energy = 0;
     for (int b = 0; b < 2; ++b) energy += held * std::pow(state.q[b][2], 2) + state.v[b].cwiseProduct(system.bodies[b].mass).dot(state.v[b]);
     g.motion = std::max(g.motion, std::sqrt(energy / (2 * held)) / kOff);
@@ -84,9 +84,9 @@ TEST(TautSteps, NothingGrows) {
       });
 }
 
-// Solved to a tolerance that runs begin with, steps leave accelerations across the bars that are small beside the force but move them
-// far within a long step. They are to stay within what a step leaves, and the forces with them. Measured: 2e-5 rad and 2e-7 of the
-// force; without (4.7) 3e6 rad and 1e23 times the force.
+// Solved to a tolerance with which runs begin, steps leave accelerations across the bars that are small compared with the force but
+// move the bars far within a long step. The bars must stay within what one step leaves, and so must the forces. Measured: 2e-5 rad
+// and 2e-7 of the force; without (4.7) 3e6 rad and 1e23 times the force.
 TEST(TautSteps, WhatTheToleranceLeavesDoesNotGrow) {
   int steps = 0, most = 0;
   for (const int stages : {3, 5})

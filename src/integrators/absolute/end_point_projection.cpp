@@ -15,11 +15,11 @@
 namespace pintle {
 namespace {
 
-constexpr int kTautPasses = 2;  // besides the first: they leave the cube of what one pass leaves, Eq. (4.8)
+constexpr int kTautPasses = 2;  // passes after the first: what remains is the cube of what one pass leaves, Eq. (4.8)
 
-constexpr double kMostOfRates = 1e-9;  // of the largest velocity: what may be left of rates in the shortest steps
+constexpr double kMostOfRates = 1e-9;  // fraction of the largest velocity: upper limit on what may be left of rates in the shortest steps
 
-// The carried value; where the geometry's differs by more than rounding, the geometry's.
+// The carried value, or the geometry's where the two differ by more than rounding.
 PINTLE_LANES Lanes<4> carried_or(const Lanes<4>& carried, const Lanes<4>& geometry, double rounding) {
   return where_larger(sizes(geometry - carried), Lanes<4>::all(rounding), geometry, carried);
 }
@@ -69,8 +69,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     return true;
   }
 
-  // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
-  // neither stiff nor soft for this step, their error is the force's.
+  // The gaps' own accelerations are second differences, over the stages, of what the forces require; where a joint is
+  // neither stiff nor soft for this step, their error is that of the force.
   double find_error(const BasicStageTails<S>& tails, const BasicLoadScale<S>& scale) const {
     TailSize bodies, gaps, states;
     for (std::size_t b = 0; b < n_bodies(); ++b)
@@ -99,7 +99,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     end.law_state = last.law_state;
     end.law_rate = last.law_rate;
     find_motions(end, m);
-    if (!(assemble_rates_and_measure_gaps(last, end, m) < rounding)) {  // one pass has left more
+    if (!(assemble_rates_and_measure_gaps(last, end, m) < rounding)) {  // the first pass has left more
       assemble_position_error(last, end, m);
       answer(rhs_);
       for (std::size_t b = 0; b < n_bodies(); ++b) S::move(end.q[b], Eigen::Map<const typename S::Vec>(rhs_[b].a.data()));
@@ -129,7 +129,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     load_motions(m);
   }
 
-  // In curved spaces the poses give angles up to whole turns: their number is taken from the carried gap. So are the turns of a belt, and the slip of surfaces.
+  // In curved spaces the poses give angles only up to whole turns: their number comes from the carried gap, as do a belt's turns and surface slip.
   Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map,
                   const BasicStage<S>& carried) const {
     Kinematics r;
@@ -170,7 +170,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     impedance_.find(tangents_, mu);
     for (int k = 0; k < S::kDof * S::kDof; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
   }
-  // Of one of the joints, four sets of gaps.
+  // For one of the joints, four sets of gaps.
   static void weigh_tails(const BasicJointPack<S>& joints, int i, const RowOf4<S>& gap, RowOf4<S>& f) {
     if (!joints.linear) weigh<S::kDof>(false, joints.weight, gap.a.data(), f.a.data());
     else
@@ -193,7 +193,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     for (int i = 0; i < joints.n; ++i) blocks.lane(i).add_to(lu_, body(joints.a[i]), body(joints.b[i]), joints.slot[i]);
   }
 
-  // What the joints' forces at the last stage do against motions across them, into pulled_.
+  // Adds to pulled_ the stiffness that the joints' forces at the last stage give against motions across them.
   void add_pull(const BasicJointPack<S>& joints, const BasicStage<S>& last) {
     if (joints.map.functions > 0) return add_pull_of(joints.first, system_, last.m, last.force[joints.first], pulled_);
     L force[S::kDof];
@@ -208,7 +208,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     }
   }
 
-  // What the step does not resolve of it, into the matrix. Eq. (4.7).
+  // Adds the part of it that the step does not resolve to the matrix. Eq. (4.7).
   void hold_taut(double mu) {
     const double own = mu / kProjectionShare;
     taut_ = false;
@@ -221,7 +221,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     }
   }
 
-  // Where the matrix holds bodies its solution is too small: a few passes add what is left. Eq. (4.8).
+  // Where the matrix holds bodies its solution is too small: a few passes add the rest. Eq. (4.8).
   template <class Row>
   void answer_rest(std::vector<Row>& x, std::vector<Row>& rest) {
     rest = x;
@@ -259,7 +259,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     }
   }
 
-  // What the gaps' rates ask of the velocities. Returns what is left of the gaps.
+  // The right-hand side for the velocities, from the gaps' rates. Returns what is left of the gaps.
   double assemble_rates_and_measure_gaps(const BasicStage<S>& last, const BasicState<S>& end, const std::vector<typename S::Motion>& m) {
     clear(rhs_);
     L left = L::all(0);
@@ -301,8 +301,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     });
   }
 
-  // The joints' forces at their gaps, into force_rhs_ by the matrix's map, so that the balance takes off all that is wrong with them; and
-  // what their accelerations want, into rhs_. What is left of the rates is returned.
+  // Puts the joints' forces at their gaps into force_rhs_, by the matrix's map so that the balance removes all of their error; and the
+  // right-hand side for their accelerations into rhs_. Returns what is left of the rates.
   double assemble_force_balance(const BasicStage<S>& last, BasicState<S>& end, const std::vector<typename S::Motion>& m, double rounding, double rounding_of_rate) {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) accel_[b][k] = last.a[b][k];
@@ -347,8 +347,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     for (int k = 0; k < S::kDof; ++k) force[k] = L::all(f[k]);
   }
 
-  // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them. The
-  // magnitudes of the loads on each body go into rhs_.
+  // At the end of the step positions and velocities are more accurate than anywhere inside, and so are the forces that
+  // balance them. The magnitudes of the loads on each body go into rhs_.
   void balance(const BasicStage<S>& last, BasicState<S>& end, BasicLoadScale<S>& scale) {
     answer(rhs_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
@@ -371,7 +371,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], typename S::Vec(Eigen::Map<const typename S::Vec>(rhs_[b].a.data())), scale.body[b]);
   }
 
-  // Joints that come soon, which are asked for themselves before, and what they will want; null behind the last ones.
+  // Prefetches joints that come later, and returns those whose data are to be prefetched next; null after the last ones.
   PINTLE_LANES const BasicJointPack<S>* soon(const BasicJointPack<S>& joints) const {
     const std::size_t place = &joints - joints_.data();
     fetch(joints_, place + kLater);
@@ -412,27 +412,27 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     next->fetch_bodies(rhs_);
   }
 
-  static constexpr int kSoon = 16;                     // bodies from here
-  static constexpr std::size_t kNext = 2, kLater = 4;  // joints in packs from here
+  static constexpr int kSoon = 16;                     // prefetch distance in bodies
+  static constexpr std::size_t kNext = 2, kLater = 4;  // prefetch distances in packs: of their data; of the packs themselves
 
   const BasicSystem<S>& system_;
   const bool large_;
   std::vector<BasicJointPack<S>> joints_;
-  const bool has_states_;               // laws have some
+  const bool has_states_;               // some laws have states
   std::vector<RowOf4<S>> state_loads_;  // tails of what these laws add to the loads on bodies
   BasicLawTangents<S> tangents_;            // of one joint at a time
   LawImpedance<double, S> impedance_;
   BlockLu<double, S::kDof> lu_;
-  std::vector<BodyAt<S>> at_;          // of bodies and the ground, as the next ones
+  std::vector<BodyAt<S>> at_;          // of bodies and the ground, like those below
   std::vector<RowOf4<S>> corrections_;
-  std::vector<BodyPull<S>> pulled_;  // how taut joints hold each body, first as BodyPull, then against moving [N/m, N/m, N*m/rad]
+  std::vector<BodyPull<S>> pulled_;  // how taut joints hold each body: first as BodyPull, then as stiffnesses [N/m, N/m, N*m/rad]
   bool taut_ = false;            // a body is held
   std::vector<RowOf4<S>> rest_of_four_;
   std::vector<BodyRow<S>> rest_;
   std::vector<BodyRow<S>> accel_, rhs_, force_rhs_;
 };
 
-// The same text for registers of every width.
+// The same code for registers of every width.
 #define PINTLE_END_POINT(Name, WIDTH)                                                                                                         \
   template <class S>                                                                                                                          \
   class Name final : public LaneEndPointProjection<S> {                                                                                          \

@@ -1,4 +1,4 @@
-// The end of a step against GapProjector, which answers one question at a time.
+// The end of a step against GapProjector, which performs one operation at a time.
 #include "integrators/absolute/end_point_projection.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 using sample::Random;
 using S = Planar;
 
-// A last stage somewhere, whose gaps and rates are beside those of its poses by up to `off`.
+// A last stage at a random state, whose gaps and rates differ from those of its poses by up to `off`.
 struct LastStage {
   const System system;
   double t = 0.3;
@@ -74,7 +74,7 @@ TEST(EndPointProjection, AnswersAreTheProjectorsOneByOne) {
 
 constexpr double kStep = 2e-3;
 
-// The last coefficient of either kind, over the loads, with what the next one will be like.
+// The last coefficient of either kind, over the loads, times the expected ratio of the next one.
 TEST(EndPointProjection, ErrorIsTheLargerTail) {
   Random random(11);
   const LastStage at(sample::four_bar(1e8, 3000), 1e-3, 12);
@@ -103,8 +103,8 @@ TEST(EndPointProjection, ErrorIsTheLargerTail) {
   EXPECT_FALSE(std::isfinite(end->error(tails, LoadScale{Vecs(tails.bodies.size(), S::Vec::Ones())})));
 }
 
-// The same end, one question after the other. theory/time Eqs. (4.1)-(4.4). A second pass where the first has left more than
-// rounding.
+// The same end, one operation after the other. theory/time Eqs. (4.1)-(4.4). A second pass where the first has left more
+// than rounding.
 class Plainly {
  public:
   Vecs q, v, gap, rate, force;
@@ -159,11 +159,11 @@ class Plainly {
 
   const LastStage& at_;
   GapProjector projector_;     // its joint kinematics and its matrix are those of the last stage
-  std::vector<JointKinematics> r_;  // where q and v are
+  std::vector<JointKinematics> r_;  // at q and v
   Vecs wanted_;
 };
 
-// Smaller mu leave the free motion to rounding: at 1 the forces of both ways are 4e-7 N apart, of 110 N.
+// With smaller mu the free motion is left to rounding: at 1 the forces of the two ways differ by 4e-7 N, of 110 N.
 TEST(EndPointProjection, IsWhatTheProjectorDoesOneByOne) {
   int again = 0, at_once = 0;
   for (const double off : {1e-4, 1e-9})
@@ -199,7 +199,7 @@ TEST(EndPointProjection, IsWhatTheProjectorDoesOneByOne) {
       grow_load_scale(at.system, m, at.stage.Q, state, raised);
       for (std::size_t b = 0; b < m.size(); ++b) {
         EXPECT_GT(raised.body[b][0], 7);
-        EXPECT_LT((scale.body[b] - raised.body[b]).cwiseQuotient(raised.body[b]).norm(), 1e-3) << off << " " << mu;  // of maps up to `off` apart
+        EXPECT_LT((scale.body[b] - raised.body[b]).cwiseQuotient(raised.body[b]).norm(), 1e-3) << off << " " << mu;  // the maps differ by up to `off`
       }
     }
   EXPECT_GT(again, 0);

@@ -11,7 +11,7 @@
 
 namespace pintle {
 
-// How much of the forces the step's polynomials leave unresolved, over the load scale. theory/time Eqs. (3.12), (3.13).
+// The part of the forces that the step's polynomials leave unresolved, over the load scale. theory/time Eqs. (3.12), (3.13).
 template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
@@ -21,7 +21,7 @@ bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   return std::isfinite(error);
 }
 
-// What the loads change by where the bodies are moved onto their gaps: positions are known no better. theory/time Eq. (3.20).
+// The change of the loads as the bodies are moved onto their gaps: positions are known no better. theory/time Eq. (3.20).
 template <class S>
 double BasicRadauStepper<S>::change_of_loads(double h) {
   if (system_.loads.empty() && system_.applied.empty()) return 0;
@@ -54,7 +54,7 @@ double BasicRadauStepper<S>::open_contact_error(double h) const {
                               largest_coordinate(last.q), scale_);
 }
 
-// theory/time Eq. (3.24). In a smooth motion there is next to none.
+// theory/time Eq. (3.24). In a smooth motion it is next to zero.
 template <class S>
 double BasicRadauStepper<S>::ringing_behind_event(double h) const {
   if (!control_.behind_event) return 0;
@@ -70,7 +70,7 @@ double BasicRadauStepper<S>::ringing_behind_event(double h) const {
   return largest;
 }
 
-// What joints rub with may act on next to no mass. theory/time Eq. (3.21).
+// Friction in joints may act on next to no mass. theory/time Eq. (3.21).
 template <class S>
 double BasicRadauStepper<S>::friction_tail() const {
   TailSize size;
@@ -86,8 +86,8 @@ double BasicRadauStepper<S>::friction_tail() const {
   return size.value();
 }
 
-// Legendre coefficients of the body forces M a, as accelerations that the bodies can yield to within the step: stiff joints hold back
-// the rest, and what a step does not resolve of their vibration is damped by it. theory/time Eq. (3.14).
+// Legendre coefficients of the body forces M a, as accelerations that the bodies can follow within the step: stiff joints hold back
+// the rest, and the step damps what it does not resolve of their vibration. theory/time Eq. (3.14).
 template <class S>
 double BasicRadauStepper<S>::motion_tail() {
   for (int i = 0; i < system_.n_bodies(); ++i)
@@ -145,7 +145,7 @@ void BasicRadauStepper<S>::taylor_step(double h) {
   this->update_switching();
 }
 
-// What the integrals of the increments' rates miss the end by: the projection. theory/space Eq. (2.3).
+// What the integrals of the increments' rates miss at the end, which is the projection. theory/space Eq. (2.3).
 template <class S>
 void BasicRadauStepper<S>::find_increments(double h) {
   nodes_.increment_rate[0] = begin_.v;

@@ -1,4 +1,4 @@
-// Where free bodies and their joints are inside a step, ahead of it and beyond its end: what its events ask for. theory/time section 7.
+// Free bodies and their joints inside a step, ahead of it and beyond its end, as its events need them. theory/time section 7.
 #include <cmath>
 
 #include "integrators/absolute/radau_stepper.h"
@@ -89,7 +89,7 @@ void BasicRadauStepper<S>::evaluate_switching_functions_at_end(double* value) co
   system_.evaluate_switching_functions(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, value);
 }
 
-// What joints lose more than at the end, a time d later: a contact whose force has vanished loses what it still stores.
+// Change of the joints' loss power in a time d after the end: a contact whose force has vanished loses what it still stores.
 template <class S>
 double BasicRadauStepper<S>::change_in_loss_power(double d) const {
   if (end_.loss_power == 0) return 0;
@@ -168,7 +168,8 @@ void BasicRadauStepper<S>::rebalance_end() {
   }
 }
 
-// Otherwise all passes miss the same impulse. A ball that strikes a damper 1e-10 s late is as much late again for the next contact as its speed is wrong: 2e-7 s, and a force that is 5e-4 wrong.
+// Otherwise all passes miss the same impulse. A ball that strikes a damper 1e-10 s late reaches its next contact 2e-7 s late through the error of its speed, and the
+// force there is wrong by 5e-4.
 template <class S>
 void BasicRadauStepper<S>::compensate_late_crossing(double late) {
   before_compensation_ = end_;

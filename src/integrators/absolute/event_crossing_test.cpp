@@ -1,5 +1,5 @@
-// Kinks and jumps of forces: a step ends on each of them, and the forces before and after are as good as those of a run that
-// is stopped and started anew at the known time.
+// Kinks and jumps of forces: a step ends on each of them, and the forces before and after are as accurate as those of a run
+// that is stopped and restarted at the known time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ State run_up_to(const System& system, const State& from, double end, double tole
 }
 
 struct Ends {
-  double nearest = 1e9;         // distance of the nearest end of a step from a time
+  double nearest = 1e9;         // distance of the nearest end of a step from the event
   std::uint64_t steps = 0, rejected = 0;
   State last;
 };
@@ -99,8 +99,8 @@ TEST(EventLocation, AStepEndsOnTheEvent) {
     }
 }
 
-// A block of 2 kg in a guide on a spring of 50 N/m with dry friction of 3 N: a jump in the rate at every turning point, the
-// half periods all alike, the amplitude less by twice 3/50 m each time.
+// A block of 2 kg in a guide on a spring of 50 N/m with dry friction of 3 N: a jump in the rate at every turning point,
+// equal half periods, the amplitude reduced by twice 3/50 m each time.
 struct DryFriction {
   static constexpr double kShift = 3.0 / 50, kRate = 5, kHalf = std::numbers::pi / kRate;
   Model model;
@@ -132,7 +132,7 @@ TEST(EventLocation, DryFrictionTurnsWhereItShould) {
       ASSERT_TRUE(stepper.step(2.2)) << stepper.failure();
       const State& s = stepper.state();
       for (int n = 0; n < 3; ++n) nearest[n] = std::min(nearest[n], std::abs(s.t - (n + 1) * DryFriction::kHalf));
-      // The shift of a kink by dt moves what follows by kRate * 0.5 * dt at the most.
+      // The shift of a kink by dt shifts what follows by at most kRate * 0.5 * dt.
       EXPECT_NEAR(s.q[0][0], DryFriction::position(s.t), 3 * kCrossingTolerance) << s.t << " " << stages;
       EXPECT_NEAR(s.force[0][0] + s.force[0][1], 2 * 9.80665, 1e-4) << s.t << " " << stages;
     }
@@ -141,7 +141,7 @@ TEST(EventLocation, DryFrictionTurnsWhereItShould) {
   }
 }
 
-// A kink in a rate without a jump: drag that acts one way only.
+// A kink in a rate without a jump: drag that acts in one direction only.
 TEST(EventLocation, OneWayDragIsThatOfASplitRun) {
   Model one_way = DryFriction().model, both = one_way, none = one_way;
   one_way.motors[0].law = expression("-8*max(rate, 0)", {"rate"});
@@ -149,7 +149,7 @@ TEST(EventLocation, OneWayDragIsThatOfASplitRun) {
   none.motors.clear();
   const System system = build_system(one_way), with = build_system(both), without = build_system(none);
   const State start = sample::loaded_start(none, without);
-  // Without drag the first half period is pi/5; then back with it.
+  // Without drag the first half period is pi/5; then back with drag.
   const State turn = run_up_to(without, start, DryFriction::kHalf, 1e-11, 5);
   EXPECT_NEAR(turn.v[0][0], 0, 1e-9);
   const State exact = run_up_to(with, turn, 1.1, 1e-11, 5);
@@ -161,7 +161,7 @@ TEST(EventLocation, OneWayDragIsThatOfASplitRun) {
   }
 }
 
-// Where there is no kink none is crossed, however much a step falls short of the first guess.
+// Where there is no kink none is crossed, however far a step falls short of the first guess.
 TEST(EventLocation, AFirstStepFarTooLongIsOnlyShortened) {
   const Model model = sample::pendulum(1e8, 10);  // starts without its load: vibrates at 20 000 rad/s
   const System system = build_system(model);
@@ -176,8 +176,8 @@ TEST(EventLocation, AFirstStepFarTooLongIsOnlyShortened) {
   }
 }
 
-// A rod in free fall until its rope is taut, again and again: every attempt across that fails, and the shorter one, which is all
-// fall, needs no correction at all.
+// A rod in free fall until its rope is taut, again and again: every attempt across that instant fails, and the shorter one,
+// which is all free fall, needs no correction at all.
 TEST(EventLocation, ARopePassesFromSlackToTaut) {
   Model model = sample::pendulum(1e6, 200);
   model.ground[0].position = {0, 1.5};

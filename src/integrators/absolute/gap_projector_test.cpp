@@ -11,7 +11,7 @@ namespace {
 
 using sample::Random;
 
-// The four-bar, every body knocked out of its place by up to `size`.
+// The four-bar, with every body displaced by up to `size`.
 struct Knocked {
   Model model;
   const System system;
@@ -69,7 +69,7 @@ TEST(GapProjector, OnePassIsTheDenseSolution) {
   }
 }
 
-// The move is the shortest in the mass norm: nothing of it goes along a motion that the joints leave free.
+// The move is the shortest in the mass norm: it has no component along a motion that the joints leave free.
 TEST(GapProjector, MovesNothingAlongFreeMotions) {
   const Knocked at(1e10, 1e-3);
   GapProjector projector(at.system);

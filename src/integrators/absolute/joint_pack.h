@@ -14,7 +14,7 @@ namespace pintle {
 template <class S>
 using BodyRow = BlockVec<double, S::kDof>;
 
-/// Rows of four bodies, component by component in lanes, and back.
+/// Loads the rows of four bodies into lanes, component by component.
 PINTLE_LANES void load_rows(const std::vector<BodyRow<Planar>>& x, const int (&body)[4], Lanes<4> (&out)[Planar::kDof]) {
   Lanes<4> rows[4] = {x[body[0]].lanes(), x[body[1]].lanes(), x[body[2]].lanes(), x[body[3]].lanes()};
   transpose(rows);
@@ -41,7 +41,7 @@ PINTLE_LANES void add_rows(const Lanes<4> (&on_a)[Spatial::kDof], const Lanes<4>
     }
 }
 
-/// Where a body is and how it moves, for joints that look at four of them.
+/// Position and motion of a body, for joints that read four of them at once.
 template <class S>
 struct BodyAt;
 template <>
@@ -124,18 +124,18 @@ struct BasicJointPack {
 
   PackedFrame<S> F, M;
   L offset[S::kDof], k[S::kDof], c[S::kDof];
-  L forbidden[S::kDof];          // components: 1; free ones: 0
-  L weight[S::kDof * S::kDof];             // K + mu C by rows; the first row of springs and dampers
+  L forbidden[S::kDof];          // 1: component that the joint holds; 0: free one
+  L weight[S::kDof * S::kDof];             // K + mu C by rows; for springs and dampers its diagonal
   typename S::template GapMap<L> map;           // as in the matrix
-  int first = 0, n = 0;    // joints
-  int lane[4] = {};        // the joint in each; those beyond n follow the last one
-  int a[4] = {}, b[4] = {};  // their bodies; the ground stands behind the last one
+  int first = 0, n = 0;    // the first joint, and how many
+  int lane[4] = {};        // the joint in each lane; lanes beyond n repeat the last one
+  int a[4] = {}, b[4] = {};  // their bodies; the ground comes after the last one
   BlockPattern::Slot slot[4] = {};  // of their bodies, A before B
   bool linear = false;     // springs and dampers
-  bool pose = false;       // the same in the relative pose
+  bool pose = false;       // the same, with the relative pose as the gap
   bool slides = false;     // one of them leaves a component of translation free
 
-  /// Component k of what there is for each joint.
+  /// One component of a quantity of each joint.
   PINTLE_LANES L load(const std::vector<typename S::Vec>& x, int component) const {
     return L::of({x[lane[0]][component], x[lane[1]][component], x[lane[2]][component], x[lane[3]][component]});
   }
@@ -144,7 +144,7 @@ struct BasicJointPack {
       for (int component = 0; component < S::kDof; ++component) x[first + i][component] = from[component].v[i];
   }
 
-  /// What they read and write of x, by joint or by body, will be asked for soon.
+  /// Prefetch what the joints read and write of x, by joint or by body.
   template <class Row>
   PINTLE_LANES void fetch_joints(const std::vector<Row>& x) const {
     fetch(x, first, n);
@@ -157,7 +157,7 @@ struct BasicJointPack {
     }
   }
 
-  /// Their gaps and the map there, of springs and dampers in the pose. joints Eqs. (2.1)-(2.5).
+  /// Their gaps and the map there, for springs and dampers in the pose. joints Eqs. (2.1)-(2.5).
   PINTLE_LANES void read_poses(const std::vector<BodyAt<S>>& at, Kinematics& r, typename S::template GapMap<L>& map_there) const {
     const auto A = BodyAt<S>::view(at, a), B = BodyAt<S>::view(at, b);
     const auto g = S::template PoseGeometry<L>::between(A, F, B, M);
@@ -168,19 +168,19 @@ struct BasicJointPack {
     g.biases(r.bias);
   }
 
-  /// on_bodies += G' f, by the map of the matrix.
+  /// on_bodies += G' f, with the map of the matrix.
   PINTLE_LANES void push(const L* f, std::vector<BodyRow<S>>& on_bodies) const {
     L on_a[S::kDof], on_b[S::kDof];
     map.wrenches(f, on_a, on_b);
     add_rows(on_a, on_b, n, a, b, on_bodies);
   }
-  /// on_bodies += the magnitudes of that.
+  /// on_bodies += the magnitudes of the same.
   PINTLE_LANES void push_magnitudes(const L* f, std::vector<BodyRow<S>>& on_bodies) const {
     L on_a[S::kDof] = {}, on_b[S::kDof] = {};
     map.push_magnitudes(f, on_a, on_b);
     add_rows(on_a, on_b, n, a, b, on_bodies);
   }
-  /// G x of bodies and the ground, by one of the joints' maps.
+  /// G x for x of bodies and the ground, with one of the joints' maps.
   PINTLE_LANES void gather(const typename S::template GapMap<L>& by, const std::vector<BodyRow<S>>& x, L (&gap)[S::kDof]) const {
     L of_a[S::kDof], of_b[S::kDof];
     load_rows(x, a, of_a);

@@ -1,4 +1,4 @@
-// The stage solver with its stages in lanes: what it knows. What it does is in stage_newton_iteration.h, which is compiled for registers of
+// The stage solver with its stages in lanes: its data. What it does is in stage_newton_iteration.h, which is compiled for registers of
 // several widths.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace pintle {
 
-/// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints once there and once back, what it
-/// keeps stands in the order of elimination, and what can be computed again is not stored.
+/// Large mechanisms do not fit into caches: every iteration passes through the bodies and joints once forwards and once backwards,
+/// stores its data in the order of elimination, and does not store what can be recomputed.
 template <class S, int N>
 class LaneStageSolver : public BasicStageSolver<S> {
  public:
@@ -33,40 +33,40 @@ class LaneStageSolver : public BasicStageSolver<S> {
   using X = Spectrum<N>;
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
-  static constexpr int kMostStatePasses = 3;  // of Newton's method for the states of a law at given gaps; one serves what is linear in them
+  static constexpr int kMostStatePasses = 3;  // Newton passes for the states of a law at given gaps; one serves laws that are linear in them
 
   struct Body : S::template BodyLanes<N> {
-    L residual[S::kDof];         // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
-    double over_scale[S::kDof];  // mass over the loads that corrections are measured by
+    L residual[S::kDof];         // of its equation of motion: unbalanced forces [N, N, N*m]; then Newton's correction of a
+    double over_scale[S::kDof];  // mass over the loads by which corrections are measured
     int index = 0;         // in the system
   };
   struct Joint {
     L accel[S::kDof], force[S::kDof];
     typename S::template GapMap<double> frozen;   // at the stage where the equations are linearised
-    typename S::AttachmentFrame F, M;  // where it stands on its bodies
+    typename S::AttachmentFrame F, M;  // its attachments to its bodies
     double k[S::kDof], c[S::kDof];       // of springs and dampers
-    double over_scale[S::kDof];    // 1 over the loads that changes of the force are measured by
+    double over_scale[S::kDof];    // 1 over the loads by which changes of the force are measured
     int index = 0;           // in the system
-    int a, b;                // its bodies; the ground stands behind the last one
-    int first, last;         // of them but the ground
-    int general = -1;        // among general_, where the law is more than springs and dampers
+    int a, b;                // its bodies; the ground comes after the last one
+    int first, last;         // of its bodies, without the ground
+    int general = -1;        // index into general_, where the law is more than springs and dampers
     bool linear = false;     // springs and dampers
-    int functions = 0;       // components of its gap that are functions of the pose; 0: it is the pose
-    bool loses = false;      // power, as a spring and a damper that no motor drives
+    int functions = 0;       // components of its gap that are functions of the pose; 0: the gap is the pose
+    bool loses = false;      // it loses power as a spring and a damper that no motor drives
     signed char driven = -1;  // component that follows a target
     BlockPattern::Slot slot{};  // of its bodies, A before B
   };
-  // What a joint has whose law is more than springs and dampers.
+  // Data of a joint whose law is more than springs and dampers.
   struct General {
     BasicLawTangents<S> tangents;            // at the stage where the equations are linearised
-    LawImpedance<X, S> impedance;       // there
+    LawImpedance<X, S> impedance;       // at the same stage
     X over_mu2[S::kDof * S::kDof];                   // its weight over mu^2
-    X missing_gap[S::kDof];                // in the gap's equation, in the diagonal frame
-    std::vector<L> state, rate;      // of the law's own; their rates are unknowns of the stages
-    std::vector<L> residual;         // in the rates' equations
+    X missing_gap[S::kDof];                // residual of the gap's equation, in the diagonal frame
+    std::vector<L> state, rate;      // of the law itself; the rates are unknowns of the stages
+    std::vector<L> residual;         // of the rates' equations
     std::vector<X> missing_hat;      // the same in the diagonal frame
     BasicLawTangents<S> at_stage;    // of one stage at a time
-    std::vector<double> matrix, move;  // of the states' equations at all stages, and what solves them
+    std::vector<double> matrix, move;  // of the states' equations at all stages, and their solution
   };
   struct Curve;  // through the last step's nodes
 
@@ -114,29 +114,29 @@ class LaneStageSolver : public BasicStageSolver<S> {
   double tolerance_;
   NewtonContraction contraction_;
   Predictor predictor_;
-  bool relinearizes_ = false;                // a law that is linearised again is there
-  static constexpr double kSlow = 0.4;       // contraction above which Jacobians of an earlier step do not serve this one
-  static constexpr int kMostWithOld = 4;     // iterations with them, at most. As strict as with new ones, 0.15 and no such end, costs as much, but what they then leave lets the momentum of a rub and bristles at 1e-5 miss their stated errors
-  double factorized_for_ = 0;                 // the step; 0: none
-  bool loads_;                                // there is more than weight
-  static constexpr std::size_t kTile = 16;    // bodies that fit into the nearest cache, with their joints
-  static constexpr std::size_t kSoon = 16, kLater = 24;  // bodies or joints from here; first those, then what the system has of them
-  bool large_;                                // memory is asked for in time
-  std::vector<int> by_first_;                 // where it is: joints in the order of their first bodies
-  bool simple_ = true;                        // and no joint that is more than springs and dampers
+  bool relinearizes_ = false;                // some law is linearised again
+  static constexpr double kSlow = 0.4;       // contraction rate above which Jacobians of an earlier step do not serve this one
+  static constexpr int kMostWithOld = 4;     // iterations with Jacobians of an earlier step, at most. The rule for new ones, 0.15 and no such limit, costs as much, but what it leaves makes the momentum of a rub and bristles at 1e-5 miss their stated errors
+  double factorized_for_ = 0;                 // step size of the factorisation; 0: none
+  bool loads_;                                // there are loads other than weight
+  static constexpr std::size_t kTile = 16;    // bodies that fit into the innermost cache, with their joints
+  static constexpr std::size_t kSoon = 16, kLater = 24;  // prefetch distances, in bodies or joints: of the system's data on them; of the solver's own, which come first
+  bool large_;                                // memory is prefetched
+  std::vector<int> by_first_;                 // if large: joints in the order of their first bodies
+  bool simple_ = true;                        // no loads, and no joints but springs and dampers that no motor drives
   bool poses_ = true;                         // no joint but springs and dampers in the relative pose
   const BlockPattern pattern_;                // of rows in the order of elimination
   std::vector<Body> bodies_;                  // in that order
   std::vector<Joint> joints_;                 // in the order of their last bodies
   std::vector<General> general_;
-  std::vector<L> target_accel_;               // of targets, by joint of the system; empty: nothing is driven
+  std::vector<L> target_accel_;               // accelerations of targets, by joint of the system; empty: nothing is driven
   VecsOf<S> Q_;                                    // of one stage, by body of the system
-  std::vector<BlockVec<L, S::kDof>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
-  std::vector<typename S::Motion> motions_;       // of one stage, by body of the system, where anything asks for them
-  X mu_, mu2_, once_, twice_;                 // and 1 / mu, 1 / mu^2
+  std::vector<BlockVec<L, S::kDof>> loads_on_;      // on the bodies and the ground: gravity and loads at the stages, where there are loads
+  std::vector<typename S::Motion> motions_;       // of one stage, by body of the system, where they are needed
+  X mu_, mu2_, once_, twice_;                 // mu, mu^2, 1 / mu, 1 / mu^2
   LaneMatrix<N> back_;                        // T mu^2: from the diagonal frame to accelerations at the stages
   BlockLu<X, S::kDof> lu_;
-  std::vector<BlockVec<X, S::kDof>> rhs_;           // and the ground's
+  std::vector<BlockVec<X, S::kDof>> rhs_;           // of the bodies and the ground
 };
 
 }  // namespace pintle

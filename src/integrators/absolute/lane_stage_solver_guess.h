@@ -9,7 +9,7 @@
 
 namespace pintle {
 
-// Accelerations at the stages as the last step's curve goes on; without one those at the start.
+// Accelerations at the stages, extrapolated from the last step's curve; without one those at the start.
 template <class S, int N>
 struct LaneStageSolver<S, N>::Curve {
   const BasicStepNodes<S>* nodes;
@@ -37,7 +37,7 @@ struct LaneStageSolver<S, N>::Curve {
   }
 };
 
-// By how much accelerations that are extrapolated with such weights of the last step's nodes would have missed those at the end, over the loads.
+// Error at the end of the step, over the loads, of accelerations that are extrapolated with these weights of the last step's nodes.
 template <class S, int N>
 double LaneStageSolver<S, N>::extrapolation_error(const BasicStepNodes<S>& before, const RadauTable::Vec& weights) const {
   double worst = 0;
@@ -50,8 +50,8 @@ double LaneStageSolver<S, N>::extrapolation_error(const BasicStepNodes<S>& befor
   return worst;
 }
 
-// What a large mechanism will want soon, past body b and past joint j: the solver's own first, then what the system has of it. All such
-// functions are inlined by force: the compiler takes one that does nothing else for one that does nothing.
+// Prefetch what a large mechanism needs soon, past body b and past joint j: the solver's own data first, then the system's. All such
+// functions are inlined by force: the compiler takes one that only prefetches for one that does nothing.
 template <class S, int N>
 PINTLE_LANES void LaneStageSolver<S, N>::fetch_body(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, std::size_t b) const {
   fetch(bodies_, b + kLater);
@@ -71,7 +71,7 @@ PINTLE_LANES void LaneStageSolver<S, N>::fetch_joint(const BasicState<S>& begin,
   for (int n = 0; n <= N && unplaced->nodes; ++n) fetch(unplaced->nodes->gap_accel[n], i);
 }
 
-// What corrections are measured by, and a first guess.
+// The scale of corrections, and a first guess.
 template <class S, int N>
 void LaneStageSolver<S, N>::begin_bodies(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, std::size_t first, std::size_t end) {
   L angles = L::all(0);
@@ -105,7 +105,7 @@ void LaneStageSolver<S, N>::begin_joint(const BasicState<S>& begin, const Curve&
   place_joint(begin, joint, change, sum);
 }
 
-// The accelerations that driven components are to follow.
+// The accelerations prescribed for driven components.
 template <class S, int N>
 void LaneStageSolver<S, N>::find_targets(double t, double h) {
   for (std::size_t j = 0; j < target_accel_.size(); ++j) {

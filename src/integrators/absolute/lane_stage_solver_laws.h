@@ -12,7 +12,7 @@
 
 namespace pintle {
 
-// Gauss's elimination with row pivots: the right-hand side becomes the solution.
+// Gaussian elimination with row pivoting: the right-hand side becomes the solution.
 template <class Matrix>
 void solve_in_place(Matrix& matrix, Eigen::Map<Eigen::VectorXd>& x) {
   const Eigen::Index n = x.size();
@@ -37,8 +37,8 @@ void solve_in_place(Matrix& matrix, Eigen::Map<Eigen::VectorXd>& x) {
   }
 }
 
-// The states of a law at the stages, its force, and what is missing in its states' equations: where that could be felt, the states are
-// solved for first, at the gaps as they are. Eq. (3.19).
+// The states of a law at the stages, its force, and the residual of its states' equations. Where the residual could be felt in the
+// force, the states are solved for first, at the present gaps. Eq. (3.19).
 template <class S, int N>
 void LaneStageSolver<S, N>::place_general(const BasicState<S>& begin, Joint& joint, const L* gap, const L* rate, L* force) {
   const BasicJointData<S>& data = system_.joints[joint.index];
@@ -59,8 +59,8 @@ void LaneStageSolver<S, N>::place_general(const BasicState<S>& begin, Joint& joi
   std::copy_n(out.force, S::kDof, force);
 }
 
-// Whether what is missing in the states' equations is felt in the joint's force, by the tangents at hand; or is as large as the states themselves. Bristles that
-// nothing presses push nobody, and would grow without a bound.
+// Whether the residual of the states' equations is felt in the joint's force, by the available tangents; or is comparable with the states themselves: bristles
+// under no pressure exert no force, and would grow without bound.
 template <class S, int N>
 bool LaneStageSolver<S, N>::miss_states(const Joint& joint, const General& general) const {
   const BasicLawTangents<S>& tangents = general.tangents;
@@ -69,7 +69,7 @@ bool LaneStageSolver<S, N>::miss_states(const Joint& joint, const General& gener
     for (int z = 0; z < tangents.n; ++z) worst = larger_size(worst, (joint.over_scale[k] * tangents.force_by_state[k][z] * step_.c[N - 1]) * general.residual[z]);
   for (int s = 0; s < N; ++s)
     if (worst[s] > NewtonContraction::kShare * tolerance_) return true;
-  constexpr double kOfItself = 0.3;  // of a state's size
+  constexpr double kOfItself = 0.3;  // fraction of a state's size, above which what is missing in it is solved for
   for (std::size_t z = 0; z < general.state.size(); ++z) {
     double size = 0, missing = 0;
     for (int s = 0; s < N; ++s) {
@@ -112,7 +112,7 @@ void LaneStageSolver<S, N>::solve_states(double t, const BasicLaw<S>& law, const
     for (int s = 0; s < N; ++s) general.rate[z].set(s, general.rate[z][s] + move[s * n + z]);
 }
 
-// The forces that answer what is missing in a gap's equation and in those of the law's states. Eq. (3.16).
+// The forces that correct the residuals of a gap's equation and of the law's states' equations. Eq. (3.16).
 template <class S, int N>
 void LaneStageSolver<S, N>::answer_states(General& general, const X* missing, X* f) const {
   weigh<S::kDof>(false, general.over_mu2, missing, f);
@@ -138,7 +138,7 @@ void LaneStageSolver<S, N>::move_states(General& general, const L* accel) const 
   }
 }
 
-// The laws' own states at the stages, and the tails of the forces that they make.
+// The laws' own states at the stages, and the tails of the forces due to them.
 template <class S, int N>
 void LaneStageSolver<S, N>::write_states(const BasicState<S>& begin, const Joint& joint, const L* gap, const L* rate, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const {
   const General& general = general_[joint.general];

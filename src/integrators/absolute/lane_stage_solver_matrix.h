@@ -1,4 +1,4 @@
-// The matrix of the stages' equations, in lanes: what LaneStageSolver puts into it. Included where it is compiled for registers of several
+// The matrix of the stage equations, in lanes, as LaneStageSolver assembles it. Included where it is compiled for registers of several
 // widths.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace pintle {
 
-// The eigenvalues that Z(mu) of Eq. (3.8) is made at.
+// The eigenvalues at which Z(mu) of Eq. (3.8) is formed.
 template <class S, int N>
 void LaneStageSolver<S, N>::begin_matrix(double h) {
   mu_ = (1 / h) * matrices_.eigenvalue;
@@ -24,7 +24,7 @@ void LaneStageSolver<S, N>::begin_matrix(double h) {
   back_.column[N - 1] = mu2_.x[N - 1] * T.column[N - 1];
 }
 
-// The loads' slopes at the middle stage.
+// Adds the loads' tangents at the middle stage.
 template <class S, int N>
 void LaneStageSolver<S, N>::add_loads(const BasicState<S>& begin, double h) {
   for (std::size_t b = 0; b < n_bodies(); ++b) motions_[bodies_[b].index] = bodies_[b].motion(kMiddle);
@@ -35,7 +35,7 @@ void LaneStageSolver<S, N>::add_loads(const BasicState<S>& begin, double h) {
   system_.external_tangents(begin.t + table_.c[kMiddle] * h, motions_, add, begin.sliding);
 }
 
-// A joint's part of that, by its tangents at the middle stage, and its weights of Eq. (3.10).
+// Adds a joint's part of the matrix, from its tangents at the middle stage, and finds its weights of Eq. (3.10).
 template <class S, int N>
 void LaneStageSolver<S, N>::linearize(const BasicState<S>& begin, Joint& joint, const typename S::template GapMap<L>& map) {
   constexpr int i = kMiddle;
@@ -75,7 +75,7 @@ void LaneStageSolver<S, N>::add_block(Block<X, S::kDof>& block, const typename S
     for (int c = 0; c < S::kDof; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
 }
 
-// G' w G - N of one joint of any kind, whose weight is any matrix.
+// Adds G' w G - N of one joint of any kind, with any weight matrix.
 template <class S, int N>
 void LaneStageSolver<S, N>::add_joint(const Joint& joint, const X* weight, const typename S::Vec& force) {
   const BasicJointData<S>& data = system_.joints[joint.index];

@@ -1,5 +1,5 @@
-// What a joint adds to the matrices of implicit methods: of any kind, and faster where its gap is the relative pose and its law has a
-// spring and a damper in each component.
+// What a joint adds to the matrices of implicit methods: for joints of any kind, and faster where the gap is the relative pose and
+// the law has a spring and a damper in each component.
 #pragma once
 
 #include <tuple>
@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-/// Springs and dampers make symmetric matrices.
+/// Springs and dampers give symmetric matrices.
 template <class S>
 Symmetry symmetry_of_joints(const BasicSystem<S>& system) {
   for (const BasicJointData<S>& joint : system.joints)
@@ -18,7 +18,7 @@ Symmetry symmetry_of_joints(const BasicSystem<S>& system) {
   return Symmetry::kSymmetric;
 }
 
-/// G' w G of a pair of bodies: w stands for stiffness in each component.
+/// G' w G of a pair of bodies: w holds the stiffness of each component.
 template <class S, class T>
 struct PoseBlocks {
   static constexpr int n = S::kDof;
@@ -50,7 +50,7 @@ struct PoseBlocks {
     return k;
   }
 
-  /// Those of one lane.
+  /// The blocks of one lane.
   PINTLE_LANES PoseBlocks<S, double> lane(int i) const {
     PoseBlocks<S, double> one;
     for (int r = 0; r < n; ++r)
@@ -80,9 +80,8 @@ struct PoseBlocks {
   }
 };
 
-/// The same in the plane, and less N, which is the geometric stiffness at the joint's force. In world
-/// axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both bodies, and one against turning.
-/// joints Eqs. (2.5), (2.6), (2.9).
+/// The same in the plane, minus N, the geometric stiffness at the joint's force. In world axes w is a symmetric stiffness (xx, xy,
+/// yy) at the joint's point, which acts at the arms of both bodies, and a rotational stiffness. joints Eqs. (2.5), (2.6), (2.9).
 template <class T>
 struct PoseBlocks<Planar, T> {
   T xx, xy, yy;
@@ -105,7 +104,7 @@ struct PoseBlocks<Planar, T> {
     k.ba = w[2] + g.bx * k.ay - g.by * k.ax;
     return k;
   }
-  /// Less N, at a force [N, N, N*m].
+  /// Minus N, at a force [N, N, N*m].
   template <class Real, class Force>
   PINTLE_LANES static PoseBlocks of(const PlanarGapMap<Real>& g, const T* w, const Force& force) {
     PoseBlocks k = of(g, w);
@@ -118,7 +117,7 @@ struct PoseBlocks<Planar, T> {
     return k;
   }
 
-  /// Those of one lane.
+  /// The blocks of one lane.
   PINTLE_LANES PoseBlocks<Planar, double> lane(int i) const { return {xx[i], xy[i], yy[i], ax[i], ay[i], aa[i], bx[i], by[i], bb[i], ba[i]}; }
   /// Adds it to the blocks of bodies a and b, which may be the ground.
   PINTLE_LANES void add_to(BlockLu<T, 3>& lu, int a, int b, BlockPattern::Slot slot) const {

@@ -22,7 +22,7 @@ BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tol
     const BasicLaw<S>& law = system.joints[j].law;
     if (law.has_friction() && law.n_states() == 0) rubbing_.emplace_back(j, (law.engaged_stiffness().array() > 0).select(S::Vec::Zero(), S::Vec::Ones()));
   }
-  const bool only_last = powered_.empty() && !system.has_loads();  // no other stage is asked for its power
+  const bool only_last = powered_.empty() && !system.has_loads();  // no other stage's power is needed
   for (BasicStage<S>& s : stage_) {
     s.a = bodies;
     s.gap_accel = s.force = joints;
@@ -76,7 +76,7 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   raise_above_rounding();
 }
 
-// Loads on a body that are no more than what rounding makes of the stiffest joint's force are none, and no step resolves a part of them.
+// Loads on a body below the rounding of the stiffest joint's force count as none, and no step resolves a part of them.
 template <class S>
 void BasicRadauStepper<S>::raise_above_rounding() {
   const double far = largest_coordinate(end_.q);
@@ -91,7 +91,7 @@ void BasicRadauStepper<S>::raise_above_rounding() {
   for (std::size_t i = 0; i < of_springs.size(); ++i) raise_load_scale_above_rounding(static_cast<int>(i), of_springs[i]);
 }
 
-// Of a coordinate that grows as the motor turns.
+// For a coordinate that grows as the motor turns.
 template <class S>
 void BasicRadauStepper<S>::raise_above_rounding_of_servos() {
   for (const int j : powered_) {
@@ -118,8 +118,8 @@ bool BasicRadauStepper<S>::unloaded() const {
   return !scale_.body.empty();
 }
 
-// Where nothing acts yet (joints that are not stretched), no force is large enough to measure errors by: the loads are those
-// that the linearised first step finds.
+// Where nothing acts yet (joints that are not stretched), no force is large enough to measure errors by: the loads are then
+// those that the linearised first step finds.
 template <class S>
 void BasicRadauStepper<S>::foresee_loads(double h) {
   const double everything = std::numeric_limits<double>::max();

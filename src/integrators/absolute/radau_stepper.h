@@ -1,13 +1,13 @@
 // The force-accurate implicit method: Radau IIA of order 5 or 9 on positions, velocities AND joint gaps, theory/time
 // section 3.
 //
-// Every joint carries its gap e as a state of its own, driven by what the bodies' accelerations make of it:
+// Every joint carries its gap e as a state of its own, driven by the bodies' accelerations:
 //     M v' = Q + G' f,    q' = v,    e'' = G v' + (convective term),    f = law(e, e')
-// On a stiff joint the stage equations then say G M^-1 (Q + G' f) + convective = small, as if the constraint had been
-// differentiated twice: the force comes out with the order of the method, at any stiffness, instead of as k times the
-// difference of nearly equal positions. On a soft joint they are its plain equations of motion. After every step the
-// positions and velocities are moved onto the gaps (EndPointProjection), so that nothing drifts. Steps end at the kinks and
-// jumps of laws and loads.
+// On a stiff joint the stage equations then state G M^-1 (Q + G' f) + convective = small, as if the constraint had been
+// differentiated twice: the force has the order of the method, at any stiffness, instead of being k times the difference
+// of nearly equal positions. On a soft joint they are its plain equations of motion. After every step the positions and
+// velocities are projected onto the gaps (EndPointProjection), so that nothing drifts. Steps end at the kinks and jumps
+// of laws and loads.
 #pragma once
 
 #include <array>
@@ -37,9 +37,9 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void set_load_scale(const BasicLoadScale<S>& scale) { scale_ = scale; }
   const BasicLoadScale<S>& load_scale() const { return scale_; }
 
-  /// Starts at `state` (all of it filled in) with a first step of about h.
+  /// Starts at `state` (with all members filled in) with a first step of about h.
   void start(const BasicState<S>& state, double h);
-  /// One accepted step, not beyond t_end. False when no step could be made; `failure` says why.
+  /// One accepted step, not beyond t_end. False when no step succeeded; `failure` says why.
   bool step(double t_end);
   /// One step of exactly h without error control (negative: backwards); false when Newton fails.
   bool trial(double h);
@@ -49,7 +49,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const BasicState<S>& state_before_event() const { return this->end_before_borders(); }
   /// StepEvents::in_crossing.
   const BasicState<S>* in_crossing(double t) { return StepEvents<BasicRadauStepper<S>, S>::in_crossing(t); }
-  /// The inside of the last step, for dense output.
+  /// The interior of the last step, for dense output.
   const BasicStepNodes<S>& nodes() const { return nodes_; }
   double next_step() const { return control_.next; }
   const Counters& counters() const { return counters_; }
@@ -62,8 +62,8 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const RadauTable& table() const { return table_; }
 
  private:
-  static constexpr bool kEveryJointIsALaw = true;  // whose force follows from its gap: for StepEvents
-  friend class StepControl;  // which calls what follows, up to finish_step
+  static constexpr bool kEveryJointIsALaw = true;  // the force of each follows from its gap: for StepEvents
+  friend class StepControl;  // calls the functions below, up to finish_step
   double t() const { return begin_.t; }
   void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
@@ -76,14 +76,14 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
 
   // error_estimate.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
-  double change_of_loads(double h);           // where the bodies are moved onto their gaps
+  double change_of_loads(double h);           // as the bodies are moved onto their gaps
   double open_contact_error(double h) const;
   double ringing_behind_event(double h) const;
   double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_m_, stage_[n_ - 1].m); }
-  double friction_tail() const;               // of forces in free directions that no mass shows
-  double motion_tail();                       // as accelerations that the bodies can yield to
+  double friction_tail() const;               // of forces in free directions, which no mass shows
+  double motion_tail();                       // as accelerations that the bodies can follow
   void finish_step(double h);                 // fills end_ and nodes_
-  void taylor_step(double h);                       // the same where nothing changes but by Taylor's series
+  void taylor_step(double h);                       // the same by Taylor's series, where forces stay constant
   void find_increments(double h);             // of the nodes, in curved spaces
   using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
@@ -92,7 +92,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const;
   void find_power();
 
-  // event_crossing.cpp: what StepEvents asks for
+  // event_crossing.cpp: for StepEvents
   using Events = StepEvents<BasicRadauStepper<S>, S>;
   friend Events;
   using Events::control_, Events::search_, Events::crossings_, Events::sliding_load_;
@@ -119,7 +119,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const RadauTable& table_;
   const int n_;                               // stages
   double tolerance_;
-  const bool of_motion_;                      // the tolerance is
+  const bool of_motion_;                      // the tolerance is on the motion
   BasicMotionScale<S> motion_scale_;
   BasicState<S> begin_, end_, before_compensation_;
   std::unique_ptr<BasicStageSolver<S>> solver_;
@@ -127,11 +127,11 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   BasicStepNodes<S> nodes_;
   std::unique_ptr<BasicEndPointProjection<S>> end_point_;
   BasicStageTails<S> tails_;
-  VecsOf<S> load_change_, loads_then_, before_rebalancing_, rounding_;  // room that is reused
+  VecsOf<S> load_change_, loads_then_, before_rebalancing_, rounding_;  // reused storage
   BasicOpenContacts<S> open_contacts_;
   BasicBendWatch<S> bends_;
-  std::vector<std::pair<int, typename S::Vec>> rubbing_;  // joints without bristles, and 1 where they rub
-  std::vector<int> powered_;                  // joints whose power no stage has summed up
+  std::vector<std::pair<int, typename S::Vec>> rubbing_;  // joints with friction but without bristles, and 1 in the components that rub
+  std::vector<int> powered_;                  // joints whose power the stages do not sum up
   PositionsOf<S> inside_q_;
   VecsOf<S> inside_v_, inside_gap_, inside_rate_;
   std::vector<double> inside_law_state_;

@@ -1,5 +1,5 @@
-// The implicit method: its order in positions, velocities AND joint forces, soft to rigid; known solutions; step counts
-// that do not grow with stiffness; the energy account; failures that say where.
+// The implicit method: its order in positions, velocities AND joint forces, from soft to rigid; known solutions; step
+// counts that do not grow with stiffness; the energy account; failures that say where they are.
 #include "integrators/absolute/radau_stepper.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using sample::follow;
 using sample::largest_difference;
 using sample::measured_order;
 
-// Damping of the fast vibration in keeping with the stiffness: 3000 N s/m at 1e8 N/m.
+// Damping of the fast vibration in proportion to the stiffness: 3000 N s/m at 1e8 N/m.
 double matching_damping(double k) { return 3000 * std::sqrt(k / 1e8); }
 
 struct Errors {
@@ -61,7 +61,7 @@ TEST(RadauStepper, FiveStagesReachForcesThatThreeDoNot) {
   EXPECT_LT(errors_of_fixed_steps(sample::four_bar(1e12, matching_damping(1e12)), 0.1, {8}, 5).force.front(), 2e-8);
 }
 
-// Measured: 4.9 in motion; in force 4.9 from 1e10 N/m on, 4.0 at 1e8 N/m where the step comes near the vibration.
+// Measured: 4.9 in motion; in force 4.9 from 1e10 N/m on, 4.0 at 1e8 N/m, where the step nears the vibration's period.
 TEST(RadauStepper, PendulumForcesConvergeLikeItsMotion) {
   for (const double k : {1e8, 1e10, 1e12}) {
     const Errors e = errors_of_fixed_steps(sample::pendulum(k, matching_damping(k)), 0.4, {16, 32});
@@ -136,7 +136,7 @@ TEST(RadauStepper, StepsDoNotGrowWithStiffness) {
   }
 }
 
-// Soft joints still ring after 0.1 s, at 1000 to 4000 rad/s, and that is followed. Measured: 275 and 100 steps.
+// Soft joints still ring after 0.1 s, at 1000 to 4000 rad/s, and this is resolved. Measured: 275 and 100 steps.
 TEST(RadauStepper, VibrationOfSoftJointsIsFollowed) {
   for (const double k : {1e6, 1e7}) {
     const Model model = sample::four_bar(k, matching_damping(k));
@@ -145,9 +145,9 @@ TEST(RadauStepper, VibrationOfSoftJointsIsFollowed) {
   }
 }
 
-// From a start whose gap rates are not yet those of the motion, c = 3000 N s/m at every stiffness: the vibration that this
-// excites has sqrt(m / k) times the rate of the forces as amplitude, and falls below the tolerance at 1e11 N/m. Above it, its
-// decay is followed. Measured: 112 to 546 steps, then 41 to 43.
+// From a start whose gap rates are not yet those of the motion, with c = 3000 N s/m at every stiffness: the vibration that
+// this excites has an amplitude of sqrt(m / k) times the rate of the forces, and is below the tolerance at 1e11 N/m. At
+// larger amplitudes its decay is resolved. Measured: 112 to 546 steps, then 41 to 43.
 TEST(RadauStepper, VibrationBelowTheToleranceCostsNothing) {
   for (const double k : {1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12}) {
     const Model model = sample::four_bar(k, 3000);
@@ -199,8 +199,8 @@ TEST(RadauStepper, ClosesItsEnergyAccount) {
   }
 }
 
-// The carried gaps are those of the positions, whatever the step; their rates differ from those of the velocities by what moves
-// no position in a step; and the forces are those of the law to the tolerance.
+// The carried gaps are those of the positions, whatever the step; their rates differ from those of the velocities by an amount
+// that moves no position within a step; and the forces are those of the law to the tolerance.
 TEST(RadauStepper, CarriedGapsAreThoseOfThePositions) {
   const Model model = sample::four_bar(1e8, 3000);
   const System system = build_system(model);
@@ -223,7 +223,7 @@ TEST(RadauStepper, CarriedGapsAreThoseOfThePositions) {
   }
 }
 
-// What a start has of accelerations may not be what its forces give. No step resolves that: it is noticed, not stepped around.
+// The accelerations of a start may not be those that its forces give. No step resolves that: it is detected, without small steps.
 TEST(RadauStepper, AStartThatDoesNotFitCostsAFewTrials) {
   const Model model = sample::four_bar(1e8, 3000);
   const System system = build_system(model);
@@ -237,7 +237,7 @@ TEST(RadauStepper, AStartThatDoesNotFitCostsAFewTrials) {
   EXPECT_GT(stepper.state().t - 0.05, 1e-5);
 }
 
-// Large mechanisms go through memory in another way; what does not touch does not matter.
+// Large mechanisms are processed in another memory order; mechanisms that do not touch do not affect each other.
 TEST(RadauStepper, ManyMechanismsMoveLikeOne) {
   constexpr std::size_t kCopies = 400;  // 1200 bodies
   const Model one = sample::four_bar(1e8, 3000);
@@ -291,7 +291,7 @@ TEST(RadauStepper, FailureSaysWhenAndWhere) {
   AppliedForce force;
   force.name = "F";
   force.on = {"rod", "O"};
-  force.force = {sample::expression("sqrt(0.1 - t)"), Expression::constant(0)};  // no number after 0.1 s
+  force.force = {sample::expression("sqrt(0.1 - t)"), Expression::constant(0)};  // not a number after 0.1 s
   model.forces = {force};
   const System system = build_system(model);
   RadauStepper stepper(system, 1e-5);

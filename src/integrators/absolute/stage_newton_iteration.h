@@ -1,7 +1,7 @@
 // The stage solver, for registers of several widths. Included where it is compiled, once for each space.
 //
-// Simplified Newton on all stages at once: they stand side by side in the lanes of Lanes<N>, and so do the real and complex
-// systems into which their equations fall apart.
+// Simplified Newton iteration on all stages at once: they occupy the lanes of Lanes<N>, and so do the real and complex
+// systems into which their equations decouple.
 #pragma once
 
 #include "integrators/absolute/lane_stage_solver_guess.h"
@@ -23,7 +23,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), predictor_(steps), loads_(system.has_loads()), large_(system.bodies.size() > kLargeMechanism),
       pattern_(system.pattern().in_order()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
       motions_(system.bodies.size()), lu_(pattern_, loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
-  bodies_.back().stand_still();  // the ground; what falls on it is not looked at
+  bodies_.back().stand_still();  // the ground; forces on it are ignored
   for (std::size_t b = 0; b < n_bodies(); ++b) bodies_[b].index = system.pattern().row_at(static_cast<int>(b));
   const int ground = static_cast<int>(n_bodies());
   const auto body = [&](int index) { return index == kGround ? ground : system.pattern().position(index); };
@@ -78,10 +78,10 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
   const Curve curve(table_, predictor_, h, before, last_h);
   find_targets(begin.t, h);
   contraction_.start();
-  // An old factorisation does not know the new side of a jump: without a step before there is none that serves.
-  bool fresh = !before || h != factorized_for_ || contraction_.rate() > NewtonContraction::kGood, wanted = fresh;  // a factorisation
-  const Curve* unplaced = &curve;  // the stages are
-  double first = -1;               // correction, in tolerances
+  // An old factorisation does not know the new side of a jump: without a previous step none can be reused.
+  bool fresh = !before || h != factorized_for_ || contraction_.rate() > NewtonContraction::kGood, wanted = fresh;  // the factorisation is new; a new one is wanted
+  const Curve* unplaced = &curve;  // null once the stages have been placed
+  double first = -1;               // correction of this step, in tolerances
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     const bool eliminated = assemble_and_eliminate(begin, h, std::exchange(unplaced, nullptr), scale, wanted);
     counters.evaluations += N;
@@ -97,7 +97,7 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
     const auto verdict = contraction_.judge(iteration, correction, tolerance_);
     if (verdict == NewtonContraction::Verdict::kDone) {
       if (!begin.sliding.empty()) find_balanced_loads();
-      else if (loads_ && correction > NewtonContraction::kShare * tolerance_) find_loads(begin, h);  // they are those before the last correction
+      else if (loads_ && correction > NewtonContraction::kShare * tolerance_) find_loads(begin, h);  // so far those before the last correction
       if (before && relinearizes_) predictor_.choose_degree(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return extrapolation_error(*before, weights); });
       return true;
     }
@@ -113,9 +113,9 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
   return false;
 }
 
-// The way there: what is missing in all equations, the matrix of the correction that answers it, and their elimination. Bodies and
-// joints that follow each other are done together, while they are at hand; loads want to know where all of the bodies are. False where
-// the matrix, which may have to be factorised, is singular. Eqs. (3.9), (3.10).
+// Forward pass: the residuals of all equations, the matrix of the correction, and their elimination. Bodies and joints that follow
+// each other are processed together, while they are in the cache; loads need the positions of all bodies. False where the matrix, if
+// it has to be factorised, is singular. Eqs. (3.9), (3.10).
 template <class S, int N>
 bool LaneStageSolver<S, N>::assemble_and_eliminate(const BasicState<S>& begin, double h, const Curve* unplaced, const BasicLoadScale<S>& scale, bool linearized) {
   const bool whole = loads_ || !poses_;
@@ -164,14 +164,14 @@ void LaneStageSolver<S, N>::place_body(const BasicState<S>& begin, std::size_t b
   body.place(step_, begin.q[body.index], begin.v[body.index]);
 }
 
-// `angles`: the largest.
+// `angles`: the largest ones.
 template <class S, int N>
 void LaneStageSolver<S, N>::check_angles(const L& angles, std::size_t first, std::size_t end) {
   if (!Body::must_check(angles)) return;
   for (std::size_t b = first; b < end; ++b) bodies_[b].check();
 }
 
-// The joint's force at its gaps and their rates. How much that has changed, over the scale of the bodies that it acts on.
+// The joint's force at its gaps and their rates. Updates `worst` and `sum` by its change, over the scale of the bodies that it acts on.
 template <class S, int N>
 void LaneStageSolver<S, N>::place_joint(const BasicState<S>& begin, Joint& joint, L& worst, L& sum) {
   const typename S::Vec &gap_there = begin.gap[joint.index], &rate_there = begin.gap_rate[joint.index];
@@ -188,7 +188,7 @@ void LaneStageSolver<S, N>::place_joint(const BasicState<S>& begin, Joint& joint
   }
 }
 
-// What is missing in a body's equations but for the joints' forces. Eq. (3.6).
+// The residual of a body's equations without the joints' forces. Eq. (3.6).
 template <class S, int N>
 void LaneStageSolver<S, N>::begin_residual(std::size_t b) {
   const BasicBodyData<S>& data = system_.bodies[bodies_[b].index];
@@ -208,8 +208,8 @@ void LaneStageSolver<S, N>::find_loads(const BasicState<S>& begin, double h) {
   }
 }
 
-// The loads that the last correction has counted on. A motor that is held at a jump has a ramp so steep that the effort of the last
-// bits of a velocity says less.
+// The loads that the last correction has assumed. The ramp of a motor that is held at a jump is so steep that the rounding of a
+// velocity makes its effort less accurate than this.
 template <class S, int N>
 void LaneStageSolver<S, N>::find_balanced_loads() {
   for (std::size_t b = 0; b < n_bodies(); ++b)
@@ -222,8 +222,8 @@ void LaneStageSolver<S, N>::find_balanced_loads() {
   }
 }
 
-// A joint's force on its bodies, and what falls on them of what is missing in its own equation. Its acceleration becomes what the
-// bodies' make of it: that is what the correction starts from. Eq. (3.6).
+// Adds a joint's force to its bodies, and the effect on them of the residual of its own equation. Its acceleration becomes the
+// one that follows from the bodies': the correction starts from there. Eq. (3.6).
 template <class S, int N>
 void LaneStageSolver<S, N>::assemble_joint(Joint& joint, const typename S::template GapMap<L>& map, const L (&bias)[S::kDof]) {
   Body &A = bodies_[joint.a], &B = bodies_[joint.b];
@@ -243,7 +243,7 @@ void LaneStageSolver<S, N>::assemble_joint(Joint& joint, const typename S::templ
   joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
 }
 
-// The map of a joint and its convective acceleration; of a driven component less than the target's.
+// The map of a joint and its convective acceleration; in a driven component, minus the target's acceleration.
 template <class S, int N>
 typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Joint& joint, L (&bias)[S::kDof]) const {
   const auto pose = S::template PoseGeometry<L>::between(bodies_[joint.a].view(), joint.F, bodies_[joint.b].view(), joint.M);
@@ -256,7 +256,7 @@ typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Join
   return map;
 }
 
-// A gap of functions of the pose: their gradients into the map, their convective accelerations into `bias`. theory/joints Eq. (2.14).
+// A gap of functions of the pose: gradients go into the map, convective accelerations into `bias`. theory/joints Eq. (2.14).
 template <class S, int N>
 void LaneStageSolver<S, N>::find_gradients(const Joint& joint, typename S::template GapMap<L>& map, L (&bias)[S::kDof]) const {
   const BasicJointData<S>& data = system_.joints[joint.index];
@@ -271,8 +271,8 @@ void LaneStageSolver<S, N>::find_gradients(const Joint& joint, typename S::templ
   }
 }
 
-// The way back: the corrections of bodies and joints, and where they lead. Eq. (3.11). Their size is returned: as body forces, and what
-// the joint forces have changed, over the scale.
+// Backward pass: the corrections of bodies and joints, and the corrected motions. Eq. (3.11). Returns the size of the corrections: as
+// body forces, and as changes of joint forces, over the scale.
 template <class S, int N>
 double LaneStageSolver<S, N>::back_substitute(const BasicState<S>& begin) {
   L worst = L::all(0), sum = worst, angles = worst;
@@ -333,7 +333,7 @@ void LaneStageSolver<S, N>::apply_body_correction(const BasicState<S>& begin, in
   place_body(begin, b);
 }
 
-// What is written soon of a body and of a joint.
+// Prefetches what will soon be written of a body and of a joint.
 template <class S, int N>
 PINTLE_LANES void LaneStageSolver<S, N>::fetch_body_end(const BasicState<S>& begin, const std::vector<BasicStage<S>>& stages, const BasicStageTails<S>& tails, std::size_t b) const {
   fetch(bodies_, b + kSoon);
@@ -442,7 +442,7 @@ void LaneStageSolver<S, N>::filter_lanes(std::vector<RowOf4<S>>& forces) const {
     for (int k = 0; k < S::kDof; ++k) x[k] = mu2 * x[k];
 }
 
-// The same text for registers of every width: everything that is made of lanes is inlined into these functions.
+// The same code for registers of every width: everything that works on lanes is inlined into these functions.
 #define PINTLE_SOLVER(Name, WIDTH)                                                                                                            \
   template <class S, int N>                                                                                                                   \
   class Name final : public LaneStageSolver<S, N> {                                                                                              \
@@ -465,7 +465,7 @@ PINTLE_SOLVER(WidestSolver, PINTLE_WIDEST)
 template <class S, int N>
 std::unique_ptr<BasicStageSolver<S>> make_solver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps) {
 #ifdef PINTLE_WIDE
-  if constexpr (!S::kCurved)  // in space it takes long to compile, and little is gained
+  if constexpr (!S::kCurved)  // in space it takes long to compile, and gains little
     if (has_widest_registers()) return std::make_unique<WidestSolver<S, N>>(system, table, tolerance, steps);
   if (has_wide_registers()) return std::make_unique<WideSolver<S, N>>(system, table, tolerance, steps);
 #endif

@@ -15,8 +15,8 @@
 
 namespace pintle {
 
-/// One stage of a step: where everything is, and the forces. Where nothing but springs and dampers acts, stages before the last one
-/// have accelerations and joint forces only.
+/// One stage of a step: positions, motions and forces. Where only springs and dampers act, stages before the last one have
+/// accelerations and joint forces only.
 template <class S>
 struct BasicStage {
   PositionsOf<S> q;                           // bodies
@@ -25,7 +25,7 @@ struct BasicStage {
   std::vector<double> law_state, law_rate;    // of the laws' own states
   std::vector<typename S::Motion> m;
   double loss = 0;                            // power lost in the springs and dampers that are joints [W]
-  VecsOf<S> increment_rate{};                 // in curved spaces: of the bodies' increments from the start of the step
+  VecsOf<S> increment_rate{};                 // in curved spaces: rates of the bodies' increments from the start of the step
 };
 using Stage = BasicStage<Planar>;
 
@@ -34,12 +34,12 @@ template <class S>
 using RowOf4 = BlockVec<Lanes<4>, S::kDof>;
 
 /// The last three Legendre coefficients of the bodies' accelerations and of the gaps' own, the last one first; the fourth number is
-/// left to the reader. Those of the bodies with the start of the step, whose own error is the last step's where the gaps are
-/// concerned.
+/// free for the reader. Those of the bodies include the start of the step; those of the gaps do not, since their error there is
+/// that of the last step.
 template <class S>
 struct BasicStageTails {
   std::vector<RowOf4<S>> bodies, gaps;
-  std::vector<RowOf4<S>> of_states{};  // those of the forces of laws with states of their own, with the start of the step, by joint
+  std::vector<RowOf4<S>> of_states{};  // those of the forces of laws with states of their own, including the start of the step, by joint
 };
 using StageTails = BasicStageTails<Planar>;
 
@@ -49,17 +49,17 @@ class BasicStageSolver {
 
   virtual ~BasicStageSolver() = default;
 
-  /// Solves the step of h from `begin`; the prediction is `before`, the step before it of last_h, where there is one.
-  /// False when the iteration fails.
+  /// Solves the step of h from `begin`, predicted from `before`, the previous step of last_h, if there is one. False
+  /// when the iteration fails.
   virtual bool solve(const BasicState<S>& begin, double h, const BasicStepNodes<S>* before, double last_h, const BasicLoadScale<S>& scale, Counters& counters) = 0;
-  /// What has been found from `begin`: one entry per stage, and the tails.
+  /// Writes the solution from `begin`: one entry per stage, and the tails.
   virtual void write(const BasicState<S>& begin, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const = 0;
-  /// By how much the last iterations shrank the error of the stages; 0: it took only one.
+  /// Ratio by which the last iterations reduced the error of the stages; 0: there was only one iteration.
   virtual double contraction() const = 0;
-  /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
+  /// The residual of joint j's equation at the end of the step [m/s^2 or rad/s^2].
   virtual double residual(int j) const = 0;
-  /// Four sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
-  /// theory/time Eq. (3.8) with the real mu. A mode of frequency w yields by mu^2 / (mu^2 + w^2).
+  /// Turns four sets of body forces, side by side, into the accelerations that they cause within the step: mu^2
+  /// Z(mu)^-1 of theory/time Eq. (3.8) with the real mu. A mode of frequency w responds by mu^2 / (mu^2 + w^2).
   virtual void filter_accelerations(std::vector<RowOf4<S>>& forces) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// The stage equations of an implicit step: what a solution must satisfy, evaluated in plain numbers by the system, how the
-// iteration ends and how long it takes.
+// The stage equations of an implicit step: the conditions of a solution, evaluated in plain numbers by the system; how the
+// iteration ends and how many iterations it takes.
 #include "integrators/absolute/stage_solver.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ std::vector<Stage> room_for(const System& system, int stages) {
 
 double largest_entry(const Vec& x) { return x.cwiseAbs().maxCoeff(); }
 
-// Eq. (3.5): what x, x' and x'' at stage i leave of collocation, relative to their size.
+// Eq. (3.5): the residuals of x, x' and x'' at stage i in the collocation, relative to their size.
 double collocation_misfit(const RadauTable& table, int i, double h, const Vec& x0, const Vec& v0, const Vec& x, const Vec& v,
                           const std::vector<Vec>& a) {
   Vec v_expected = v0, x_expected = x0 + table.c[i] * h * v0;
@@ -65,12 +65,12 @@ double collocation_misfit(const RadauTable& table, int i, double h, const Vec& x
                   largest_entry(x - x_expected) / (largest_entry(x0) + std::abs(h) * largest_entry(v0) + h * h * size + 1e-300));
 }
 
-// Relative to sizes; what remains is that of the iteration or, in the first, of rounding.
+// Relative to sizes; what remains is due to the iteration or, in the first one, to rounding.
 struct Misfits {
   double collocation = 0, pose = 0, force = 0, motion = 0, gap = 0, loss = 0;
 };
 
-// What is missing in Eqs. (3.5) and (3.6) at the stages, evaluated one by one in plain numbers.
+// The residuals of Eqs. (3.5) and (3.6) at the stages, evaluated one by one in plain numbers.
 Misfits misfits(const Start& at, const RadauTable& table, double h, const std::vector<Stage>& stages) {
   const System& system = at.system;
   Misfits worst;
@@ -122,7 +122,7 @@ Misfits misfits(const Start& at, const RadauTable& table, double h, const std::v
   return worst;
 }
 
-// Solves a step, without a prediction unless one is given, and checks what is found.
+// Solves a step, without a prediction unless one is given, and checks the solution.
 std::vector<Stage> solve_and_check(const Start& at, int stages, double h, const std::string& name, const StepNodes* before = nullptr,
                                    double last_h = 0) {
   const RadauTable& table = RadauTable::of(stages);
@@ -132,7 +132,7 @@ std::vector<Stage> solve_and_check(const Start& at, int stages, double h, const 
   const std::string where = name + ", " + std::to_string(stages) + " stages, step " + std::to_string(h);
   EXPECT_TRUE(solver->solve(at.begin, h, before, last_h, at.scale, counters)) << where;
   EXPECT_EQ(counters.evaluations, stages * counters.newton_iterations) << where;
-  // Curved laws are linearised again where their tangents have changed, at most in each iteration.
+  // Curved laws are linearised again where their tangents have changed, at most once in each iteration.
   const std::uint64_t once = 1 + stages / 2, times = counters.factorizations / once;
   const bool curved = std::any_of(at.system.joints.begin(), at.system.joints.end(), [](const JointData& joint) { return !joint.law.as_linear(); });
   EXPECT_EQ(counters.factorizations, times * once) << where;
@@ -171,7 +171,7 @@ Model loaded_four_bar(double k) {
   return model;
 }
 
-// Its pin turns as a servo wants, and a spring pulls at it.
+// A servo turns its pin, and a spring pulls on it.
 Model driven_pendulum() {
   Model model = sample::pendulum(1e8, 3000);
   model.ground.push_back({"H", {1, 2}, 0});
@@ -180,7 +180,7 @@ Model driven_pendulum() {
   return model;
 }
 
-// A rod that hangs on a rope of 2 m, which is stretched by so much.
+// A rod that hangs on a rope of 2 m, stretched by `stretch`.
 Model on_a_rope(double stretch) {
   Model model = sample::pendulum(1e6, 200);
   model.ground[0].position = {0, 2 + stretch};
@@ -220,7 +220,7 @@ TEST(StageSolver, SolutionsWithStiffJointsSatisfyTheEquations) {
     }
 }
 
-// A prediction from the step before changes the way, not the solution.
+// A prediction from the previous step changes the iteration, not the solution.
 TEST(StageSolver, SolutionDoesNotDependOnThePrediction) {
   for (const int stages : {3, 5}) {
     Start at(loaded_four_bar(1e8), [](const Model& model, const System& system) { return sample::settled_start(model, system, 0.05); });
@@ -255,12 +255,12 @@ Start with_motor(const char* law, const std::vector<std::string>& variables) {
 TEST(StageSolver, EquationsWithoutSolutionAreNotSolved) {
   for (const int stages : {3, 5}) {
     EXPECT_TRUE(solves(with_motor("-3*angle", {"angle"}), stages, 0.01));
-    // It pushes back from either side of where the pendulum is, with more than gravity: no acceleration fits.
+    // It pushes back from either side of the pendulum's position, with more than gravity: no acceleration fits.
     const Start at = with_motor("if(angle + 0.001 > 0, -200, 200)", {"angle"});
     const auto solver = make_stage_solver(at.system, RadauTable::of(stages), 1e-6);
     Counters counters;
     EXPECT_FALSE(solver->solve(at.begin, 0.05, nullptr, 0, at.scale, counters));
-    EXPECT_LE(counters.newton_iterations, 5u);  // and that is soon seen
+    EXPECT_LE(counters.newton_iterations, 5u);  // the failure is found quickly
   }
 }
 
@@ -274,7 +274,7 @@ TEST(StageSolver, SingularMatrixIsAFailure) {
   }
 }
 
-// What is no number from 0.1 s on: in an applied force, a motor's law, a servo's target.
+// Values that are not numbers from 0.1 s on: in an applied force, a motor's law, a servo's target.
 std::vector<Model> models_that_end_at_a_tenth() {
   std::vector<Model> models;
   for (const char* law : {"sqrt(0.1 - t)", "if(t < 0.1, 1, exp(1e5*t))"}) {
@@ -286,14 +286,14 @@ std::vector<Model> models_that_end_at_a_tenth() {
     pushed.forces = {force};
     motor.motors = {sample::motor("M", "pin", MotorKind::kEffort, sample::expression(law))};
     servo.motors = {sample::motor("W", "pin", MotorKind::kPosition, sample::expression(law))};
-    Model free = sample::oscillator();  // has no joint
+    Model free = sample::oscillator();  // without a joint
     free.forces[0].force = {sample::expression(law), Expression::constant(0)};
     models.insert(models.end(), {pushed, motor, servo, free});
   }
   return models;
 }
 
-// However few of the stages it is in; and the solver is none the worse for it.
+// However few stages it affects; and the solver works again afterwards.
 TEST(StageSolver, LoadThatIsNoNumberIsAFailure) {
   for (const Model& model : models_that_end_at_a_tenth())
     for (const int stages : {3, 5}) {
@@ -306,7 +306,7 @@ TEST(StageSolver, LoadThatIsNoNumberIsAFailure) {
         EXPECT_TRUE(solver->solve(at.begin, h, nullptr, 0, at.scale, counters));
         const RadauTable& table = RadauTable::of(stages);
         const double before = beyond == stages ? 0 : table.c[stages - 1 - beyond];
-        at.begin.t = 0.1 - 0.5 * (before + table.c[stages - beyond]) * h;  // so many stages are beyond 0.1 s
+        at.begin.t = 0.1 - 0.5 * (before + table.c[stages - beyond]) * h;  // this many stages are beyond 0.1 s
         EXPECT_FALSE(solver->solve(at.begin, h, nullptr, 0, at.scale, counters)) << stages << ", " << beyond << " beyond";
       }
     }
@@ -323,8 +323,8 @@ TEST(StageSolver, StartThatIsNoNumberIsAFailure) {
 
 // --- Counts ---
 
-// Bodies that are held at their centres of mass, and turned by springs: equations that are linear are solved by the first
-// correction, and the second shows it.
+// Bodies held at their centres of mass and turned by springs: the first correction solves linear equations, and the
+// second confirms it.
 TEST(StageSolver, LinearEquationsTakeTwoIterations) {
   Model model = sample::oscillator();
   model.bodies.push_back(sample::body("other", 3, 0.5, {{"C", {0, 0}, 0}}));
@@ -346,8 +346,9 @@ TEST(StageSolver, LinearEquationsTakeTwoIterations) {
     }
 }
 
-// Near rest nothing changes along a step however long, if its matrix has all that holds the bodies there: in one that hangs,
-// the force of its joint. A gap in the axes of a body that turns takes one more: the matrix leaves out how these axes turn.
+// Near rest nothing changes along a step, however long, if its matrix contains everything that holds the bodies: for one
+// that hangs, the force of its joint. A gap in the axes of a rotating body takes one more: the matrix neglects the rotation
+// of these axes.
 TEST(StageSolver, NearRestTwoIterationsAreEnough) {
   const double stretch = 9.81 / 1e6;
   for (const std::string type : {"revolute", "rod", "rope"})
@@ -370,7 +371,7 @@ TEST(StageSolver, NearRestTwoIterationsAreEnough) {
     }
 }
 
-// What is left to the iteration is a share of the tolerance, in motion and in joint forces.
+// The iteration leaves a fraction of the tolerance, in motion and in joint forces.
 TEST(StageSolver, IterationStopsWithinItsTolerance) {
   for (const int stages : {3, 5})
     for (const double h : {0.001, 0.003, 0.01})
@@ -394,7 +395,7 @@ TEST(StageSolver, IterationStopsWithinItsTolerance) {
             }
 }
 
-// Iterations of each of 40 steps as the step control makes them.
+// Iterations of each of 40 steps as chosen by the step control.
 // Measured: 139 and at most 7 with three stages, 200 and at most 8 with five.
 struct Iterations {
   std::uint64_t sum = 0, most = 0, without_prediction = 0;

@@ -1,4 +1,4 @@
-// What the powers of the share x of a step, the coefficients of an acceleration or a rate, come to at x. theory/time Eq. (5.1).
+// Values at x of the powers of the share x of a step, whose coefficients give an acceleration or a rate. theory/time Eq. (5.1).
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace pintle {
 struct CurveWeights {
   static constexpr int kMost = ForceSamples::kAll;
   static_assert(kMost >= RadauTable::kMaxNodes);
-  std::array<double, kMost> value, first, second;  // of the coefficients: the value, and its first and second integrals over time from the start of the step
-  double end_mismatch_weight;                      // of what the second integral misses the far end by; the first takes x of it
+  std::array<double, kMost> value, first, second;  // weights of the coefficients: for the value, and its first and second integrals over time from the start of the step
+  double end_mismatch_weight;                      // of what the second integral misses at the far end; the first takes x of it
 
   /// At the share x of a step of h seconds.
   CurveWeights(double x, double h) : end_mismatch_weight(cubic_blend(x)) {
@@ -23,7 +23,7 @@ struct CurveWeights {
       second[k] = first[k] * h * x / (k + 2);
     }
   }
-  /// Those of the integrals at the far end.
+  /// The integrals at the far end.
   static double first_integral_at_end(int k, double h) { return h / (k + 1); }
   static double second_integral_at_end(int k, double h) { return h * h / ((k + 1) * (k + 2)); }
 };

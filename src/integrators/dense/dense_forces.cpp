@@ -49,8 +49,8 @@ class LaneForces : public BasicDenseForces<S> {
   using Row = BlockVec<L, S::kDof>;
   struct Joint {
     L gap[S::kDof], rate[S::kDof], accel[S::kDof], force[S::kDof];  // on the curves
-    L change[S::kDof];                            // of the force, that balances
-    L weight[S::kDof * S::kDof];                            // K + mu C; the first three of a spring and damper in each component
+    L change[S::kDof];                            // of the force, so that it balances
+    L weight[S::kDof * S::kDof];                            // K + mu C; its diagonal for a spring and damper in each component
     typename S::template GapMap<L> map;
     const typename BasicLaw<S>::Linear* linear = nullptr;
     BlockPattern::Slot slot{};
@@ -59,7 +59,7 @@ class LaneForces : public BasicDenseForces<S> {
   std::size_t body(int index) const { return index == kGround ? bodies_.size() - 1 : static_cast<std::size_t>(index); }
   std::size_t n_bodies() const { return bodies_.size() - 1; }
 
-  // Where the curves are at the instants.
+  // Evaluates the curves at the instants.
   void follow(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
     const ForceSamples& samples = ForceSamples::of(*nodes.table);
     const int n = nodes.table->n + 1;
@@ -125,7 +125,7 @@ class LaneForces : public BasicDenseForces<S> {
     }
   }
 
-  // The map of joint j, what its bodies make of the gap's rate, and the convective acceleration; of a driven component less than its target's.
+  // The map of joint j, the gap's rate from its bodies, and the convective acceleration; in a driven component minus its target's.
   void read(std::size_t j, L (&rate)[S::kDof], L (&bias)[S::kDof]) {
     const BasicJointData<S>& data = system_.joints[j];
     Joint& joint = joints_[j];
@@ -153,7 +153,7 @@ class LaneForces : public BasicDenseForces<S> {
     }
   }
 
-  // mu^2 M + G' (K + mu C) G where the curves are; leaves wanted changes of the rates in `rate`. An instant at which that is singular
+  // mu^2 M + G' (K + mu C) G on the curves; leaves the required changes of the rates in `rate`. An instant at which it is singular
   // has forces that are not numbers.
   void factorize(double mu) {
     lu_.set_diagonal([&](int b, int k) { return L::all(mu * mu * system_.bodies[b].mass[k]); });
@@ -190,7 +190,7 @@ class LaneForces : public BasicDenseForces<S> {
   }
   static void weigh(const Joint& joint, const L* gap, L* f) { pintle::weigh<S::kDof>(joint.linear != nullptr, joint.weight, gap, f); }
 
-  // G' w G of any joint, a body's coordinate at a time.
+  // G' w G of any joint, one coordinate of a body at a time.
   void add_joint(std::size_t j) {
     const Joint& joint = joints_[j];
     const BasicPlacement<S>& at = system_.joints[j].at;
@@ -221,7 +221,7 @@ class LaneForces : public BasicDenseForces<S> {
     return row;
   }
 
-  // The bodies' answer to forces w gap of all joints, into pull_.
+  // The bodies' response to forces w gap of all joints, into pull_.
   template <class Gap>
   void pull(Gap gap) {
     for (Row& x : pull_) x = zero();
@@ -271,7 +271,7 @@ class LaneForces : public BasicDenseForces<S> {
     }
   }
 
-  // While a motor is held at a jump, those that the curves leave: its ramp is too steep to be asked at their speeds.
+  // While a motor is held at a jump: loads as the imbalance of the curves, since its ramp is too steep to be evaluated at their speeds.
   void find_balanced_loads() {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
@@ -292,7 +292,7 @@ class LaneForces : public BasicDenseForces<S> {
     }
   }
 
-  // Forces that balance; at an instant at which one of them is not a number, those of the curves.
+  // Writes the forces that balance; at an instant at which one of them is not a number, those of the curves.
   void write(Sampled& sampled) const {
     L nothing = L::all(0);
     for (const Joint& joint : joints_)
@@ -311,11 +311,11 @@ class LaneForces : public BasicDenseForces<S> {
   std::vector<typename S::template BodyLanes<kN>> bodies_;  // and the ground
   std::vector<Joint> joints_;
   BlockLu<L, S::kDof> lu_;
-  std::vector<Row> pull_, loads_on_; // and the ground's; gravity and loads
+  std::vector<Row> pull_, loads_on_; // gravity and loads on the bodies, and the ground's row
   std::vector<typename S::Motion> motions_;     // of one instant
   VecsOf<S> Q_;
   std::array<std::vector<double>, kN> law_state_;  // at the instants
-  BasicLawTangents<S> tangents_;               // of one law at one of them
+  BasicLawTangents<S> tangents_;               // of one law at one instant
   LawImpedance<double, S> impedance_;
 };
 

@@ -1,5 +1,5 @@
 // Joint forces inside a step, at all instants of ForceSamples at once: positions and velocities from the curves through the
-// nodes, velocities moved onto the gaps' rates, forces balanced with the gaps' accelerations. theory/time section 5.
+// nodes, velocities projected onto the gaps' rates, forces balanced with the gaps' accelerations. theory/time section 5.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class BasicDenseForces {
   using Sampled = std::array<VecsOf<S>, ForceSamples::kAll>;  // one entry per joint
 
   virtual ~BasicDenseForces() = default;
-  /// Of the step from `begin` to `end`; both ends of `sampled` are theirs.
+  /// For the step from `begin` to `end`; the ends of `sampled` are the forces there.
   virtual void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) = 0;
 };
 using DenseForces = BasicDenseForces<Planar>;

@@ -95,7 +95,7 @@ TEST(DenseForces, AreThoseOfOneInstantAfterTheOther) {
   }
 }
 
-// Where the forces of the laws are not numbers, what the nodes say stays as it is.
+// Where the forces of the laws are not numbers, those at the nodes are kept.
 TEST(DenseForces, AnInstantWithoutAnAnswerKeepsWhatTheNodesSay) {
   const Model model = sample::four_bar(1e8, 3000);
   const System system = build_system(model);

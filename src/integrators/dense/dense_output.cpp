@@ -52,7 +52,7 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
   if (t == begin.t) return begin;
   const double h = end.t - begin.t, s = (t - begin.t) / h;
   const Hermite H(s);
-  if constexpr (S::kCurved) {  // increments and velocities by cubic curves: accelerations are not the increments' second derivatives
+  if constexpr (S::kCurved) {  // cubic curves for increments and velocities: accelerations are not the increments' second derivatives
     const double r = 1 - s;
     for (std::size_t i = 0; i < out_.q.size(); ++i) {
       const typename S::Vec dq = S::difference(end.q[i], begin.q[i]), rate = S::rate_of_increment(dq, end.v[i]);
@@ -65,7 +65,7 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
   }
   interpolate(H, h, begin.gap, begin.gap_rate, begin.gap_accel, end.gap, end.gap_rate, end.gap_accel, out_.gap, out_.gap_rate,
               out_.gap_accel);
-  for (const std::size_t j : slipping_) {  // how far surfaces have slipped no state need know
+  for (const std::size_t j : slipping_) {  // states need not contain the distance that surfaces have slipped
     const double v0 = begin.gap_rate[j][kSlip], v1 = end.gap_rate[j][kSlip], a0 = begin.gap_accel[j][kSlip], a1 = end.gap_accel[j][kSlip];
     out_.gap[j][kSlip] = begin.gap[j][kSlip];
     out_.gap_rate[j][kSlip] = cubic_hermite(s, h, v0, a0, v1, a1);
@@ -96,7 +96,7 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
   return out_;
 }
 
-// For the curves: many runs ask for none.
+// Storage for the curves: many runs need none.
 template <class S>
 void BasicDenseOutput<S>::make_room() {
   dense_forces_ = make_dense_forces(system_);
@@ -205,7 +205,7 @@ void BasicDenseOutput<S>::find_curves(const BasicState<S>& begin, const BasicSta
   }
 }
 
-// The forces' own curves: through the ends and samples inside. theory/time section 5.
+// The forces' own curves: through the ends and the samples inside. theory/time section 5.
 template <class S>
 void BasicDenseOutput<S>::find_forces(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
   dense_forces_->find(begin, end, nodes, sampled_);

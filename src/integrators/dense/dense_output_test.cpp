@@ -1,4 +1,4 @@
-// States inside a step: they meet those at its ends, and are as good as these in between.
+// States inside a step: they agree with those at its ends, and are as accurate as these in between.
 #include "integrators/dense/dense_output.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 using sample::follow;
 using sample::largest_difference;
 
-// What the curves go through.
+// The data that the curves interpolate.
 enum class Through { kEnds, kThreeNodes, kFiveNodes };
 constexpr Through kNodes[] = {Through::kThreeNodes, Through::kFiveNodes};
 
@@ -104,7 +104,7 @@ TEST(DenseOutput, ConvergesInsideTheStep) {
   EXPECT_GT(five.force, 5);
 }
 
-// Steps that resolve the joint's vibration, as the explicit method makes them: the law's own force.
+// Steps that resolve the joint's vibration, as the explicit method takes them: the law's own force.
 TEST(DenseOutput, ConvergesBetweenResolvedEnds) {
   const Orders ends = orders_inside(sample::pendulum(2e3, 5), Through::kEnds, {0.02, 0.01, 0.005});
   EXPECT_GT(ends.q, 5);

@@ -12,8 +12,8 @@ struct ForceSamples {
   static constexpr int kN = 5, kAll = kN + 2;  // inside; with both ends
   using AtNodes = std::array<double, RadauTable::kMaxNodes>;
 
-  std::array<double, kAll> x;                        // of the step: with both ends, the extrema of a Chebyshev polynomial on [0, 1]
-  std::array<AtNodes, kAll> value, once, twice;      // weights of the nodes: of a curve and its integrals from the start
+  std::array<double, kAll> x;                        // shares of the step: with both ends, the extrema of a Chebyshev polynomial on [0, 1]
+  std::array<AtNodes, kAll> value, once, twice;      // weights of the nodes for a curve and its integrals from the start
   std::array<std::array<double, kAll>, kAll> to_powers;  // coefficient, sample
 
   static const ForceSamples& of(const RadauTable& table);

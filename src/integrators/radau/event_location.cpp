@@ -8,10 +8,10 @@
 namespace pintle {
 namespace {
 
-constexpr int kHalvings = 46;     // of an interval between two samples: how well an event is located
-constexpr double kInside = 1e-6;  // of an interval: an extremum this close to its end is the end's
-constexpr double kUnsure = 0.1;   // of a parabola's curvature: what two of them that agree may still be wrong by
-constexpr int kSecants = 16;      // steps of the secant before the search goes on by halvings
+constexpr int kHalvings = 46;     // halvings of an interval between two samples that give the resolution of an event
+constexpr double kInside = 1e-6;  // fraction of an interval: an extremum this close to its end is taken to be the end
+constexpr double kUnsure = 0.1;   // fraction of a parabola's curvature: the error that two estimates may have even if they agree
+constexpr int kSecants = 16;      // secant steps before the search continues by bisection
 
 // Second divided difference over three points.
 double curvature(double x0, double y0, double x1, double y1, double x2, double y2) {
@@ -45,8 +45,8 @@ bool EventSearch::has_event(const Sample& from, const Sample& to) const {
 }
 
 // The first point between two samples where a function with the same sign at both may reach zero; 0: there is none. It is the
-// extremum of a parabola through both, theory/time Eq. (7.3); its place is that of the mean of the curvatures that the samples
-// beside them give, its depth that of the largest and by how much these differ.
+// extremum of a parabola through both, theory/time Eq. (7.3). Its position follows from the mean of the curvatures given by
+// the neighbouring samples, its depth from the larger curvature and their difference.
 double EventSearch::extremum(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond) const {
   const double width = right.share - left.share;
   double first = right.share;
@@ -66,7 +66,7 @@ double EventSearch::extremum(const Sample* before, const Sample& left, const Sam
   return first < right.share ? first : 0;
 }
 
-// An interval in which a function may be left and entered again is split where it is nearest to that.
+// An interval in which a function may cross zero and return is split where the function is closest to zero.
 bool EventSearch::search(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond, int level, SwitchingValues values_at, SwitchingEvent& event) {
   const double share = level < kLevels && (before || beyond) ? extremum(before, left, right, beyond) : 0;
   if (share > 0) {
@@ -79,7 +79,7 @@ bool EventSearch::search(const Sample* before, const Sample& left, const Sample&
   return true;
 }
 
-// Which of the functions with an event between two points has it first, on a straight line, and where.
+// Which of the functions with an event between two points has it first, by linear interpolation, and where.
 int EventSearch::first_crossing(const Sample& low, const Sample& high, double& share) const {
   int first = -1;
   share = high.share;
@@ -95,8 +95,8 @@ int EventSearch::first_crossing(const Sample& low, const Sample& high, double& s
   return first;
 }
 
-// Narrows an interval down to its first event by secants. Where the same end stays twice, its value counts less (N. Anderson and
-// A. Bjorck, 1973), so that both ends approach the event. What secants have not located is halved.
+// Narrows an interval down to its first event by secants. Where the same end stays twice, its value is given less weight (N.
+// Anderson and A. Bjorck, 1973), so that both ends approach the event. What secants have not located is bisected.
 SwitchingEvent EventSearch::locate(const Sample& left, const Sample& right, SwitchingValues values_at) {
   const double resolution = std::max(std::ldexp(right.share - left.share, -kHalvings), 4 * std::numeric_limits<double>::epsilon());
   std::array<double*, kTrials> free{row(kMostSamples + kLevels), row(kMostSamples + kLevels + 1), row(kMostSamples + kLevels + 2)};
@@ -104,7 +104,7 @@ SwitchingEvent EventSearch::locate(const Sample& left, const Sample& right, Swit
   std::copy_n(left.value, start_.size(), low.value);
   std::copy_n(right.value, start_.size(), high.value);
   double* trial = free[2];
-  double share = 0, weight = 1;  // of the value at the end that stayed
+  double share = 0, weight = 1;  // weight of the value at the end that stayed
   bool was_high = false;
   int function = first_crossing(low, high, share);
   for (int k = 0; high.share - low.share > resolution; ++k) {

@@ -12,7 +12,7 @@
 
 namespace pintle {
 
-/// Shares of the step just before and just after an event; 2: there is none.
+/// Shares of the step just before and just after an event; 2: no event.
 struct SwitchingEvent {
   double before = 2, after = 2;
   int function = -1;    // which switching function
@@ -20,7 +20,7 @@ struct SwitchingEvent {
   double t = 0;         // [s]
 };
 
-/// What fills the values of all switching functions at a share of a step: a reference to any callable (double share, double* value).
+/// Fills the values of all switching functions at a share of a step: a reference to any callable (double share, double* value).
 class SwitchingValues {
  public:
   template <class F>
@@ -33,35 +33,35 @@ class SwitchingValues {
   void (*call_)(const void*, double, double*);
 };
 
-/// Finds events, and goes over them. It keeps the values at the start of the step.
+/// Finds events and steps over them. Keeps the values at the start of the step.
 class EventSearch {
  public:
-  /// `functions` stay the caller's.
+  /// Keeps a reference to `functions`.
   explicit EventSearch(const std::vector<SwitchingFunction>& functions);
 
-  /// The values where the step begins, to be filled in at the end of the step before it.
+  /// The values at the start of the step, to be filled in at the end of the previous one.
   double* start() { return start_.data(); }
   std::span<const double> start() const { return start_; }
-  /// The values where the step ends, or just beyond the event that step_over has moved over: what those at the start are compared with.
+  /// The values at the end of the step, or just beyond the event that step_over has crossed; they are compared with those at the start.
   double* end() { return row(kMostSamples); }
   /// The next step begins where this one ends.
   void restart() { std::copy_n(end(), start_.size(), start_.data()); }
 
-  /// Looks at the nodes and half-way between them, and where parabolas through the values say that a function is left and entered again
-  /// between two of these; then goes to the first event that is found.
+  /// Evaluates the nodes and the points half-way between them, and points where parabolas through the values suggest that a function
+  /// crosses zero and returns; then locates the first event found.
   SwitchingEvent first(const RadauTable& table, SwitchingValues values_at);
 
-  /// Moves by `distance` and a little `beyond` by move(d, value), which moves by d and fills the values there; farther where the sign of
-  /// the event's function has not changed yet. False when it still has not.
+  /// Moves by `distance` and a little `beyond` by move(d, value), which moves by d and fills in the values there; farther while the sign
+  /// of the event's function has not changed. False if it still has not.
   template <class Move>
   bool step_over(const SwitchingEvent& event, double distance, double beyond, const Move& move);
 
  private:
   static constexpr int kMostSamples = 2 * RadauTable::kMaxStages + 1;
-  static constexpr int kLevels = 3;       // how often an interval is split at an extremum
-  static constexpr int kTrials = 3;       // ends of what is left of a step that are tried: both, and what is between them
-  static constexpr int kMoves = 5;        // over an event, at most, to come behind it
-  static constexpr double kFarther = 10;  // the most by which a move is longer than the one before
+  static constexpr int kLevels = 3;       // how many times an interval may be split at an extremum
+  static constexpr int kTrials = 3;       // points of the bracket around an event: its two ends and the trial between them
+  static constexpr int kMoves = 5;        // moves to get past an event, at most
+  static constexpr double kFarther = 10;  // largest ratio of a move to the previous one
 
   struct Sample {
     double share;
@@ -76,7 +76,7 @@ class EventSearch {
 
   const std::vector<SwitchingFunction>& functions_;
   std::vector<double> start_;
-  std::vector<double> values_;  // of the samples, the end, the extrema of each level, the trials: a row each
+  std::vector<double> values_;  // a row each for the samples, the end, the extrema of each level and the trials
 };
 
 template <class Move>
@@ -89,7 +89,7 @@ bool EventSearch::step_over(const SwitchingEvent& event, double distance, double
     gone += next;
     const double value = now[event.function];
     if ((value > 0) == event.rising) return true;
-    const double left = gone * value / (before - value);  // to zero, on a straight line
+    const double left = gone * value / (before - value);  // to zero, by linear extrapolation
     beyond *= kFarther;
     next = left > 0 && left < beyond ? left + beyond / kFarther : beyond;
   }

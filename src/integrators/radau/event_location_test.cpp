@@ -1,4 +1,4 @@
-// The search for events on given functions: crossings, touches between samples, directions, several owners, and what it costs.
+// The search for events on given functions: crossings, touches between samples, directions, several owners, and its cost.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ void expect_at(const Found& found, double x, int function, bool rising) {
   EXPECT_EQ(found.event.rising, rising);
 }
 
-// Halvings need 46 for any of them.
+// Bisection needs 46 for any of them.
 TEST(EventSearch, FindsACrossingWithAFewEvaluations) {
   const struct {
     Function f;
@@ -63,7 +63,8 @@ TEST(EventSearch, FindsACrossingWithAFewEvaluations) {
   EXPECT_LE(all, 12 * 11);
 }
 
-// Where the secant is no help, it is never much worse than halving: a jump, a root of high order, a function that is not a number.
+// Where the secant does not help, the search is never much worse than bisection: a jump, a root of high order, a function that is
+// not a number.
 TEST(EventSearch, IsNeverMuchWorseThanHalvings) {
   const Function bad[] = {[](double x) { return x < 0.37 ? -1.0 : 1e12; }, [](double x) { return std::pow(x - 0.37, 9); },
                           [](double x) { return x < 0.37 ? std::nan("") : 1.0; }, [](double x) { return x < 0.37 ? -1e-300 : 1.0; }};
@@ -83,7 +84,7 @@ TEST(EventSearch, FindsNothingWhereNothingIs) {
   }
 }
 
-// A function that is negative between two samples only, anywhere in the step: the samples have the same sign throughout.
+// A function that is negative only between two samples, anywhere in the step: all samples have the same sign.
 TEST(EventSearch, FindsAFunctionThatIsLeftAndEnteredAgainBetweenTwoSamples) {
   for (const int stages : {3, 5}) {
     const RadauTable& table = RadauTable::of(stages);
@@ -118,7 +119,7 @@ TEST(EventSearch, GoesByTheDirection) {
   expect_at(search({falls, rises}, {-1, 0}), 0.3, 0, false);
   expect_at(search({falls, rises}, {1, 0}), 0.6, 1, true);
   EXPECT_EQ(search({falls, rises}, {1, -1}).event.function, -1);
-  // Down at 0.2, which does not matter, and up at 0.7; then the same between two samples.
+  // Down at 0.2, which does not count, and up at 0.7; then the same between two samples.
   expect_at(search({[](double x) { return (x - 0.2) * (x - 0.7); }}, {1}), 0.7, 0, true);
   expect_at(search({[](double x) { return (x - 0.49) * (x - 0.5); }}, {1}), 0.5, 0, true);
   expect_at(search({[](double x) { return (x - 0.49) * (x - 0.5); }}, {-1}), 0.49, 0, false);
@@ -138,18 +139,18 @@ TEST(EventSearch, TheEarliestOfSeveralWins) {
   }
 }
 
-// More owners than fit into any word.
+// More owners than a word has bits.
 TEST(EventSearch, AHundredOwners) {
   std::vector<Function> functions;
   for (int f = 0; f < 100; ++f) functions.push_back([f](double x) { return f == 77 ? x - 0.81 : 1.0 + f; });
   expect_at(search(functions), 0.81, 77, true);
 }
 
-// From just before an event to just after it; a first move that falls short is followed by one of the length that is missing.
+// From just before an event to just after it; if the first move falls short, the next one has the length that is missing.
 TEST(EventSearch, StepsOverAsFarAsTheSignSays) {
   const std::vector<SwitchingFunction> owner(1);
   EventSearch search(owner);
-  for (const double missing : {0.0, 1e-8, 5e-8}) {  // what the event lies beyond the distance that is stated
+  for (const double missing : {0.0, 1e-8, 5e-8}) {  // how far the event lies beyond the stated distance
     const double zero = 1e-6 + missing;
     search.start()[0] = zero;
     double t = 0;

@@ -1,4 +1,4 @@
-// Geometric stiffness of joints that carry forces, as one on each body alone, whatever its sign. theory/time section 4.1.
+// Bounds on the geometric stiffness of loaded joints, as stiffnesses of single bodies, of any sign. theory/time section 4.1.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 
 namespace pintle {
 
-/// How joints hold a body: against moving across them [N/m], against turning by magnitude and with its sign [N*m/rad], which in space
-/// is a symmetric matrix in world axes: xx, yy, zz, xy, xz, yz.
+/// How joints hold a body: against moving across them [N/m], against rotation by magnitude and with its sign [N*m/rad]. The last is
+/// in space a symmetric matrix in world axes: xx, yy, zz, xy, xz, yz.
 template <class S>
 using BodyPull = BlockVec<double, S::kCurved ? 8 : 3>;
 
-/// Of joints whose gap is in the relative pose, at forces f in F's axes. Where a joint holds all components of a point, nothing but
-/// the turning of its arms is left of the geometric stiffness, exactly. Along a component that it leaves free the force turns with one
-/// body while the other slides. theory/time section 4.1.
+/// For joints whose gap is in the relative pose, at forces f in F's axes. Where a joint holds all components of a point, all that is
+/// left of the geometric stiffness is, exactly, the rotation of its arms. Along a free component the force turns with one body while
+/// the other slides. theory/time section 4.1.
 template <class S, class Real>
 struct PullAcross {
-  Real turn_a, turn_b;  // against turning: force times arm
+  Real turn_a, turn_b;  // against rotation: force times arm
   Real slide;           // the force across a free component
   Real arm_a, arm_b;
 
@@ -35,7 +35,7 @@ struct PullAcross {
     p.arm_b = size(map.bx) + size(map.by);
     return p;
   }
-  /// What one of the joints does against turning its first and its second body.
+  /// The joint's stiffness against rotation of its first and its second body.
   PINTLE_LANES void add_turn_of_first(int lane, BodyPull<S>& pulled) const { pulled[2] += one(turn_a, lane); }
   PINTLE_LANES void add_turn_of_second(int lane, BodyPull<S>& pulled) const { pulled[2] += one(turn_b, lane); }
   PINTLE_LANES static double one(double x, int) { return x; }
@@ -49,7 +49,8 @@ struct PullAcross {
   }
 };
 
-/// In space a force F at an arm b makes (F.b) |d|^2 - (F.d)(b.d) of a small turn d; couples at most their size. theory/space Eq. (4.4).
+/// In space a force F at an arm b contributes (F.b) |d|^2 - (F.d)(b.d) for a small rotation d; couples contribute at most their size.
+/// theory/space Eq. (4.4).
 template <class Real>
 struct PullAcross<Spatial, Real> {
   Vector3<Real> force, reach_a, reach_b;
@@ -91,8 +92,8 @@ struct PullAcross<Spatial, Real> {
   }
 };
 
-/// A force f across a slide x of a body that turns by theta couples them: f x theta is at most f (x^2 / r + r theta^2) / 2, here with
-/// the radius of gyration r.
+/// A force f across a slide x of a body that rotates by theta couples the two: f x theta is at most f (x^2 / r + r theta^2) / 2, here
+/// with the radius of gyration r.
 template <class S>
 void add_slide(double f, double arm, int body, const BasicSystem<S>& system, std::vector<BodyPull<S>>& pulled) {
   if (body < 0 || body >= system.n_bodies()) return;
@@ -101,12 +102,12 @@ void add_slide(double f, double arm, int body, const BasicSystem<S>& system, std
   pulled[body][1] += f * (radius + arm);
 }
 
-/// What joint j does at a force, for one of any kind. Where the gap is a function of the pose, each body takes the sum of the
-/// magnitudes in its rows, with turns measured at the radii of gyration (Gershgorin).
+/// Stiffness of joint j of any kind at a force. Where the gap is a function of the pose, each body takes the sum of the
+/// magnitudes in its rows, with rotations measured at the radii of gyration (Gershgorin).
 template <class S>
 void add_pull_of(int j, const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const typename S::Vec& force, std::vector<BodyPull<S>>& pulled);
 
-/// What a step does not resolve of it whose own frequency is `own` [1/s]. theory/time Eq. (4.7).
+/// The part of it that a step whose own frequency is `own` [1/s] does not resolve. theory/time Eq. (4.7).
 inline Planar::Vec unresolved(const BodyPull<Planar>& pull, double own, const Planar::Vec& mass) {
   const double across = std::max(0.0, pull[0] - own * own * mass[0]);
   return {across, across, std::max(0.0, pull[1] + std::abs(pull[2]) - own * own * mass[2])};

@@ -1,4 +1,5 @@
-// What joints do against motions across them: never less than their geometric stiffness, for motions that keep what they hold.
+// The stiffness of joints against motions across them: never less than their geometric stiffness, for motions that leave held
+// components unchanged.
 #include "integrators/radau/joint_pull.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 using sample::Random;
 using S = Planar;
 
-// A motion of both bodies, with the second moved so that the held components of the point stay where they are.
+// A motion of both bodies, with the second moved so that the held components of the point do not change.
 Eigen::Matrix<double, 6, 1> motion_that_keeps(const JointData& joint, const JointKinematics& r, Random& random) {
   Eigen::Matrix<double, 6, 1> x;
   x << random.vector<S::Vec>(-1, 1), random.vector<S::Vec>(-1, 1);
@@ -58,7 +59,7 @@ TEST(JointPull, IsNotLessThanTheGeometricStiffness) {
   }
 }
 
-// A bar of length L that a force F pulls at both ends: F L against turning, whatever its sign. What a step resolves is taken off.
+// A bar of length L that F pulls at both ends: F L against rotation, whatever its sign. What a step resolves is taken off.
 TEST(JointPull, OfABarIsForceTimesLength) {
   const System system = build_system(sample::pendulum(1e8, 0));
   std::vector<S::Motion> m;

@@ -1,5 +1,5 @@
-// One coordinate of unit mass in one step of 1 s, with all that a step does to it: collocation, gaps that are carried on, the projection
-// onto them with the bodies held or not. The model of theory/time section 4.1, for its picture and its test.
+// One coordinate of unit mass in one step of 1 s, with everything that a step does: collocation, carried gaps, and the projection onto
+// them with the bodies held or free. The model of theory/time section 4.1, for its figure and its test.
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,12 +12,12 @@
 
 namespace pintle::linear_step {
 
-/// What the coordinate changes a gap by, in the stages and at the end of the step, and the gap's stiffness [1/s^2].
+/// The change of a gap per unit of the coordinate, in the stages and at the end of the step, and the gap's stiffness [1/s^2].
 struct Gap {
   double stages = 1, end = 1, stiffness = 0;
 };
 
-/// The largest eigenvalue of the step by its size. `across` is the geometric stiffness [1/s^2], of either sign; `held`: Eqs. (4.7), (4.8).
+/// The magnitude of the step's largest eigenvalue. `across` is the geometric stiffness [1/s^2], of either sign; `held`: Eqs. (4.7), (4.8).
 /// The stage equations are solved exactly: Eqs. (3.5), (4.2).
 inline double spectral_radius(const RadauTable& table, double across, const std::vector<Gap>& gaps, bool held) {
   using Eigen::MatrixXd;

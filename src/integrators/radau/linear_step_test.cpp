@@ -1,4 +1,4 @@
-// The linear model of the whole step over the plane of ratios: a joint, a redundant one beside it, a servo in the same step, geometric
+// The linear model of the whole step over the plane of ratios: a joint, a redundant second one, a servo in the same step, geometric
 // stiffness of either sign. theory/time section 4.1.
 #include "integrators/radau/linear_step.h"
 
@@ -13,7 +13,7 @@ using linear_step::Gap;
 
 constexpr double kOutOfLine = 0.1;  // omega_0 over omega_N
 
-// A joint, one like it that is opened the other way, or one that sees the whole motion.
+// A joint, one like it that opens the other way, or one that sees the whole motion.
 enum class Beside { kNothing, kMirrored, kStraight };
 
 std::vector<Gap> gaps_of(double across, double stages, double end, double servo, Beside beside) {
@@ -34,7 +34,7 @@ void over_the_plane(Check check) {
           for (const double sign : {-1.0, 1.0}) check(std::pow(10.0, -1 + 0.1 * i), sign * std::pow(10.0, -0.1 * e), servo, beside);
 }
 
-// Gaps that are at the end what they were in the stages: the step is the collocation, and that is A-stable.
+// Gaps that are the same at the end as in the stages: the step is the collocation, which is A-stable.
 TEST(LinearStep, NothingGrowsWhereGapsStayLinear) {
   for (const int stages : {3, 5})
     for (const bool held : {false, true})
@@ -42,7 +42,7 @@ TEST(LinearStep, NothingGrowsWhereGapsStayLinear) {
         if (beside == Beside::kMirrored) return;
         const std::vector<Gap> gaps = gaps_of(pull * pull, gap, gap, servo, beside);
         EXPECT_LT(linear_step::spectral_radius(RadauTable::of(stages), pull * pull, gaps, held), 1 + 1e-9) << pull << " " << gap << " " << servo;
-        double stiffness = -pull * pull;  // pushed: only where the rest keeps it from falling
+        double stiffness = -pull * pull;  // pushed: only where the other stiffnesses keep it from buckling
         for (const Gap& g : gaps) stiffness += g.stiffness * g.end * g.end;
         if (stiffness > 0) {
           EXPECT_LT(linear_step::spectral_radius(RadauTable::of(stages), -pull * pull, gaps, held), 1 + 1e-9) << -pull << " " << gap << " " << servo;
@@ -50,7 +50,8 @@ TEST(LinearStep, NothingGrowsWhereGapsStayLinear) {
       });
 }
 
-// Gaps that have changed over the step: bodies free, what is left grows as the step does; held it does not, with any servo and any joint beside.
+// Gaps that change over the step: with bodies free, the remainder grows with the step; with bodies held it does not, whatever the servo and the
+// second joint.
 TEST(LinearStep, HeldBodiesDampWhatIsLeftAcrossLongSteps) {
   for (const int stages : {3, 5}) {
     const RadauTable& table = RadauTable::of(stages);
@@ -66,7 +67,7 @@ TEST(LinearStep, HeldBodiesDampWhatIsLeftAcrossLongSteps) {
   }
 }
 
-// A stiffer servo leaves less to grow.
+// A stiffer servo leaves less growth.
 TEST(LinearStep, AServoInTheSameStepOnlyHelps) {
   for (const int stages : {3, 5}) {
     double before = std::numeric_limits<double>::infinity();

@@ -25,7 +25,7 @@ class BasicMotionScale {
   const BasicLoadScale<S>& loads() const { return loads_; }
 
  private:
-  static constexpr double kLeastSpeed = 1e-6;  // the speed that a mechanism at rest is measured by [m/s]
+  static constexpr double kLeastSpeed = 1e-6;  // speed by which a mechanism at rest is measured [m/s]
 
   double speed_ = 0;
   BasicLoadScale<S> loads_;

@@ -21,11 +21,11 @@ double legendre(int degree, double x) {
   return now;
 }
 
-// The zeros of P_n - P_(n-1), rising; the last one is 1.
+// The zeros of P_n - P_(n-1), ascending; the last one is 1.
 RadauTable::Vec radau_nodes(int n) {
   RadauTable::Vec c(n);
   const auto f = [n](double x) { return legendre(n, x) - legendre(n - 1, x); };
-  constexpr int kIntervals = 1000;  // of (0, 1), in which the method's nodes are looked for: no two are in one
+  constexpr int kIntervals = 1000;  // intervals of (0, 1) that are searched for the method's nodes: no two nodes share one
   int found = 0;
   for (int i = 0; i < kIntervals && found < n - 1; ++i) {
     double low = static_cast<double>(i) / kIntervals, high = (i + 1.0) / kIntervals;

@@ -1,5 +1,5 @@
-// Radau IIA with three or five stages, order 5 or 9, stiffly accurate: the table, its inverse brought to diagonal form, and
-// what turns values at the nodes {0, c_1 .. c_n = 1} of a step into curves. Hairer and Wanner, Solving Ordinary
+// Radau IIA with three or five stages, order 5 or 9, stiffly accurate: the table, its inverse in diagonal form, and the
+// conversion of values at the nodes {0, c_1 .. c_n = 1} of a step into curves. Hairer and Wanner, Solving Ordinary
 // Differential Equations II, sections IV.5 and IV.8; theory/time Eqs. (3.1)-(3.4).
 #pragma once
 
@@ -11,7 +11,7 @@ namespace pintle {
 
 struct RadauTable {
   static constexpr int kMaxStages = 5, kMaxPairs = 2, kMaxNodes = kMaxStages + 1;
-  // Sized at run time without the heap.
+  // Sized at run time, without the heap.
   using Mat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxNodes, kMaxNodes>;
   using Vec = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxNodes, 1>;
   using ComplexVec = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, 0, kMaxNodes, 1>;
@@ -32,10 +32,10 @@ struct RadauTable {
 
   /// Lagrange weights of the nodes at x.
   Vec weights(double x) const;
-  /// The same of the last `count` of them alone; zero for those before.
+  /// The same for the last `count` of them alone; zero for those before.
   Vec weights_of_last(int count, double x) const;
 
-  /// Over [0, 1], of the product of two curves through values at the nodes; exact to degree 2n, where quadrature at the stages is exact to 2n - 2.
+  /// Integral over [0, 1] of the product of two curves through values at the nodes; exact to degree 2n, quadrature at the stages to 2n - 2.
   double integral_of_product(const Vec& first, const Vec& second) const;
 
   /// Weights of the stages, c_1 .. c_n, in the first and the second integral from 0 to x of the curve through them.

@@ -124,7 +124,7 @@ TEST_P(RadauTables, DiagonalFormGivesTheInverseBack) {
   }
 }
 
-// Polynomials come back from their values at the nodes, as powers and as Legendre polynomials on [0, 1].
+// Polynomials are recovered from their values at the nodes, as powers and as Legendre polynomials on [0, 1].
 TEST_P(RadauTables, CurvesThroughTheNodesAreExactForPolynomials) {
   const auto legendre = [](int k, double x) {
     double last = 0, now = 1;
@@ -159,8 +159,8 @@ TEST_P(RadauTables, IsAStableAndForgetsTheInfinitelyFast) {
   EXPECT_LT(std::abs(stability(table_, {0, 1e9})), 1e-7);
 }
 
-// exp(z) less the stability function is C z^(2n) (1 + O(z)) with the constant of the Pade function, n! (n-1)! / ((2n-1)! (2n)!);
-// the mean of both signs of z removes the next term.
+// exp(z) minus the stability function is C z^(2n) (1 + O(z)) with the constant of the Pade function, n! (n-1)! / ((2n-1)!
+// (2n)!); the mean of both signs of z removes the next term.
 TEST_P(RadauTables, FollowsTheExponentialToItsOrder) {
   double constant = 1;
   for (int k = 1; k <= 2 * n_; ++k) constant *= (k <= n_ ? k : 1.0) * (k < n_ ? k : 1.0) / k / (k < 2 * n_ ? k : 1.0);
@@ -170,7 +170,7 @@ TEST_P(RadauTables, FollowsTheExponentialToItsOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Stages, RadauTables, testing::Values(3, 5), [](const auto& stages) { return std::to_string(stages.param); });
 
-// To degree 2n where the stages' quadrature ends with 2n - 2.
+// To degree 2n, where quadrature at the stages is exact to 2n - 2.
 TEST_P(RadauTables, IntegrateProductsOfCurvesExactly) {
   for (int k = 0; k <= n_; ++k)
     for (int l = 0; l <= n_; ++l) {
@@ -186,7 +186,7 @@ class Predictors : public testing::TestWithParam<int> {
   const RadauTable& table_ = RadauTable::of(GetParam());
   const int n_ = table_.n;
 
-  // By how much x^k through the nodes is missed at a share of a step that is `ratio` times as long.
+  // The error of x^k, extrapolated through the nodes to a share of a step that is `ratio` times as long.
   double miss(const Predictor& predictor, int k, double share, double ratio) const {
     const RadauTable::Vec monomial = table_.nodes.array().pow(k).matrix();
     return std::abs(predictor.weights(table_, share, ratio).dot(monomial) - std::pow(1 + share * ratio, k));
@@ -199,14 +199,14 @@ class Predictors : public testing::TestWithParam<int> {
   }
 };
 
-// Into a step that is not much longer the whole curve, then a parabola, then a line.
+// Into a step that is not much longer the full degree, then a parabola, then a line.
 TEST_P(Predictors, ContinueCurvesOfTheDegreeThatFitsTheRatio) {
   for (const auto& [ratio, degree] : {std::pair{0.4, n_}, std::pair{1.2, n_}, std::pair{1.5, 2}, std::pair{-1.5, 2}, std::pair{3.0, 1}})
     expect_degree(Predictor(Steps::kLong), ratio, degree);
   for (const double ratio : {0.4, 1.5, 3.0}) expect_degree(Predictor(Steps::kAccurate), ratio, n_);
 }
 
-// Noise of the last bits at the start of a curve at rest is carried far by the full degree; a curve of high degree is missed by a parabola.
+// The full degree amplifies noise in the last bits at the start of a curve at rest; a parabola misses a curve of high degree.
 TEST_P(Predictors, TakeTheDegreeThatWouldHaveServedTheLastStep) {
   Predictor predictor(Steps::kAccurate);
   const auto at_rest = [](const RadauTable::Vec& weights) { return std::abs(weights[0]) * 1e-6; };

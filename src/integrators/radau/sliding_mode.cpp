@@ -7,12 +7,13 @@
 namespace pintle {
 namespace {
 
-constexpr double kRounding = 4;  // of velocities, over the tolerance: the least width of a ramp
-// Tolerance that a ramp still resolves: a width that went on growing with 1/tolerance would let what is held creep. With 1e-8 the shaper of
-// held_gas_force_test.cpp takes four times the steps at a tolerance of 1e-5, with 1e-7 25 times; with none it loses 13 % of its peak at 1e-6.
+constexpr double kRounding = 4;  // smallest width of a ramp, as a multiple of the rounding of velocities over the tolerance
+// Tolerance that a ramp still resolves: a width that continued to grow with 1/tolerance would let a held motion creep. With 1e-8 the shaper
+// of held_gas_force_test.cpp takes four times the steps at a tolerance of 1e-5, with 1e-7 25 times; with no limit it loses 13 % of its peak
+// at 1e-6.
 constexpr double kFinest = 1e-9;
-// Power of the tolerance, below that, by which ramps get narrower: passes whose ramps are as wide share what these lag behind. Of tests/models/relay_on_a_ringing_pin.toml at 1e-5, with
-// half of it half of the error is stated; with double of it the run takes three times the steps, and 1/100 is stated of the shaper's error.
+// Power of the tolerance, below that, with which ramps get narrower: passes with equally wide ramps share their lag. For tests/models/relay_on_a_ringing_pin.toml at 1e-5, half of it
+// states half of the error; with twice it the run takes three times the steps, and states 1/100 of the shaper's error.
 constexpr double kNarrower = 0.25;
 
 }  // namespace

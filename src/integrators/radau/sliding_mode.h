@@ -15,7 +15,7 @@ namespace pintle {
 template <class S>
 class BasicChatteringDetector {
  public:
-  /// Call after each crossing, with the instants before and after it: the jump that has been crossed again within `soon`.
+  /// Call after each crossing, with the instants before and after: the jump if it has been crossed again within `soon`.
   std::optional<SlidingMode> crossed(const BasicSystem<S>& system, double t0, const std::vector<typename S::Motion>& m0, double t1,
                                   const std::vector<typename S::Motion>& m1, double soon);
   void forget() { last_.reset(); }
@@ -26,20 +26,20 @@ class BasicChatteringDetector {
 };
 using ChatteringDetector = BasicChatteringDetector<Planar>;
 
-/// Lets go of the jumps whose ramps have been left; true if there was one.
+/// Releases the jumps whose ramps have been left; true if there was one.
 template <class S>
 bool leave_sliding(const BasicSystem<S>& system, double t, const std::vector<typename S::Motion>& m, std::vector<SlidingMode>& sliding);
 
 /// How steep a ramp may be.
 struct RampSize {
-  double time;    // in which a jump's effort brings its argument over the ramp [s]
-  double margin;  // the least width, for the rounding of velocities
+  double time;    // in which a jump's effort moves its argument across the ramp [s]
+  double margin;  // smallest width, for the rounding of velocities
 };
 template <class S>
 RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double usual_step, double tolerance);
 
-/// Holds `jump` if the efforts of its sides drive its argument towards each other's, at the share of them that leaves it where it
-/// is. `balance()` renews the accelerations for what is in `sliding`, `rate()` is then that of the argument, now `margin`.
+/// Holds `jump` if the efforts of its sides drive its argument back towards it, at the share of both that keeps the argument
+/// constant. `balance()` renews accelerations for what is in `sliding`, `rate()` is then that of the argument, now `margin`.
 template <class Balance, class Rate>
 bool enter_sliding(const SlidingMode& jump, double margin, const RampSize& size, std::vector<SlidingMode>& sliding, const Balance& balance,
                const Rate& rate) {

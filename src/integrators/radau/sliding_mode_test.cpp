@@ -1,4 +1,4 @@
-// Jumps that throw the motion back from both sides: dry friction at rest, against closed forms, on free bodies and over a tree.
+// Jumps that drive the motion back from both sides: dry friction at rest, against closed forms, on free bodies and trees.
 #include "integrators/radau/sliding_mode.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using sample::expression;
 
 constexpr double kBlockTolerance = 1e-6, kBlockMass = 2, kFriction = 3;
 
-// A block in a guide with dry friction; `drive` is what pushes it besides, an expression of t and slide.
+// A block in a guide with dry friction; `drive` is a further push, an expression of t and slide.
 Model sticking_block(const std::string& drive) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
@@ -35,7 +35,7 @@ double friction_of(const System& system, const State& state) {
   return std::nan("");
 }
 
-// Every method that steps to kinks, from the model's state to `end`, with `look` at each step.
+// Every method that steps to kinks, from the model's state to `end`; calls `look` at each step.
 template <class Look>
 void follow_all(Model model, double end, std::uint64_t most_steps, const Look& look) {
   for (const bool tree : {false, true})
@@ -57,7 +57,7 @@ void follow_all(Model model, double end, std::uint64_t most_steps, const Look& l
     }
 }
 
-// On a spring of 50 N/m the turning points come nearer by 0.12 m each half period, until friction holds the spring: at 0.02 m.
+// On a spring of 50 N/m the turning points move inwards by 0.12 m each half period, until friction holds the spring: at 0.02 m.
 TEST(SlidingModes, ABlockComesToRestOffItsSpringsLength) {
   const double rest = 4 * std::numbers::pi / 5;
   follow_all(sticking_block("50*(1 - slide)"), 6, 250, [&](const System& system, const State& s) {
@@ -82,7 +82,7 @@ TEST(SlidingModes, ABlockSticksUntilItIsPushedHardEnough) {
   });
 }
 
-// A jump that only turns the force round is crossed, not held.
+// A jump that only reverses the force is crossed, not held.
 TEST(SlidingModes, AJumpThatLetsThroughIsNotSlidOn) {
   Model model = sticking_block("20 + 0*t*slide");
   follow_all(model, 0.5, 100, [&](const System&, const State& s) {

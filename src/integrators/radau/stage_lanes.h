@@ -1,4 +1,4 @@
-// The matrices that mix the stages of a step, which stand one per lane; and what comes of the lanes.
+// The matrices that mix the stages of a step, one stage per lane; and reductions over lanes.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace pintle {
 
-/// The table as it acts on lanes: stages to stages, and to and from the diagonal frame.
+/// The table as it acts on lanes: from stages to stages, and to and from the diagonal frame.
 template <int N>
 struct StageMatrices {
   Lanes<N> c;                    // stage times
   LaneMatrix<N> A, A2, T, T_inverse;
   Spectrum<N> eigenvalue;
-  LaneMatrix<N> tail, tail_of_stages;  // to Legendre coefficients N, N - 1, N - 2 with the start, one less each without it
+  LaneMatrix<N> tail, tail_of_stages;  // to Legendre coefficients N, N - 1, N - 2 from all nodes; to one degree less each from the stages alone
   Lanes<N> tail_of_start;
 
   explicit StageMatrices(const RadauTable& table) {
@@ -54,7 +54,7 @@ struct StageMatrices {
   }
 };
 
-/// What places the stages of a step of length h.
+/// Places the stages of a step of length h.
 template <int N>
 struct StepMatrices {
   Lanes<N> c;
@@ -78,7 +78,7 @@ struct StepMatrices {
   }
 };
 
-/// A law's answer to a gap of D components: its weights are those of each, or a matrix by rows.
+/// A law's response to a gap of D components: `weight` has one entry per component, or is a matrix by rows.
 template <int D, class T>
 PINTLE_LANES void weigh(bool diagonal, const T* weight, const T* gap, T* f) {
   for (int k = 0; k < D; ++k) {
@@ -92,7 +92,7 @@ PINTLE_LANES void weigh(bool diagonal, const T* weight, const T* gap, T* f) {
   }
 }
 
-/// The largest lane; infinity where the sum of what it came from is not finite.
+/// The largest lane; infinity where the sum of the same values is not finite.
 template <int N>
 double largest(const Lanes<N>& size, const Lanes<N>& sum) {
   double worst = 0;
@@ -103,15 +103,15 @@ double largest(const Lanes<N>& size, const Lanes<N>& sum) {
   return worst;
 }
 
-/// The size of the last of three coefficients, with what the next one will be like: they fall off by a ratio where the motion is
-/// smooth (then the next one is that much smaller than the last) and do not where it vibrates.
+/// The size of the last of three coefficients, times the expected ratio of the next one to it: they decrease by a ratio where
+/// the motion is smooth (then the next one is that much smaller than the last) and do not where it vibrates.
 class TailSize {
  public:
   PINTLE_LANES void add(const Lanes<4>& relative) {
     size_ = larger_size(size_, relative);
     sum_ += relative;
   }
-  /// Of the last one alone, where a series with kinks may fall off by chance.
+  /// Size of the last one alone, for series with kinks, which may decrease by chance.
   PINTLE_LANES double last() const { return std::isfinite(sum_[0]) ? size_[0] : std::numeric_limits<double>::infinity(); }
   PINTLE_LANES double value() const {
     if (!std::isfinite(sum_[0] + sum_[1] + sum_[2])) return std::numeric_limits<double>::infinity();

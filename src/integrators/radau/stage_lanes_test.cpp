@@ -1,4 +1,5 @@
-// The maps between forces and accelerations of gaps and of bodies, in lanes, against what every kind of joint displacement reads.
+// The maps between forces and accelerations of gaps and of bodies, in lanes, against the Jacobians of every kind of joint
+// displacement.
 #include "integrators/radau/stage_lanes.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ GapMap<T> map_of(const PoseGeometry<T>& pose) {
   return map;
 }
 
-// Gradients of a gap of functions of the pose, into a lane of the map.
+// Gradients of a gap that is a function of the pose, into a lane of the map.
 template <class Map>
 void find_gradients(const JointDisplacement& displacement, const Vec& z, int lane, Map& map) {
   map.functions = count_functions(displacement);
@@ -48,7 +49,7 @@ const std::vector<JointDisplacement>& every_kind_of_displacement() {
   return all;
 }
 
-// The map at each of N couples of bodies with the same frames, and what the joint displacement reads there.
+// The map at each of N pairs of bodies with the same frames, and the joint kinematics there.
 template <int N>
 struct Poses {
   std::vector<Couple> couple;

@@ -12,10 +12,10 @@
 namespace pintle {
 namespace {
 
-// The applied force or the driven coordinate that is not a number at t or just after; empty: all are.
+// The applied force or driven coordinate whose value is not finite at t or just after; empty: all are finite.
 template <class S>
 std::string broken_function(const BasicSystem<S>& system, double t) {
-  constexpr double kJustAfter = 1e-9;  // of the time: how long after an instant a function has to be a number too
+  constexpr double kJustAfter = 1e-9;  // fraction of the time: a function must be finite this long after an instant, too
   for (const double at : {t, t + kJustAfter * std::max(std::abs(t), 1e-3)}) {
     const std::array<double, 1> time{at};
     for (const BasicAppliedData<S>& force : system.applied)
@@ -29,7 +29,7 @@ std::string broken_function(const BasicSystem<S>& system, double t) {
   return {};
 }
 
-// That the joint's edge has no height beside its stretch, where what runs on it may be; empty: it has.
+// Message that the joint's edge is undefined beyond its stretch, where what runs on it may be; empty: it is not.
 template <class S>
 std::string undefined_edge(const BasicJointData<S>& joint) {
   const std::optional<double> x = joint.edge ? joint.edge->undefined_at() : std::nullopt;

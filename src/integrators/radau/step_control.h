@@ -20,17 +20,17 @@ namespace pintle {
 
 class StepControl {
  public:
-  double next = 0, last = 0, usual = 0;  // steps: the next; the last; what it was before an event [s]
+  double next = 0, last = 0, usual = 0;  // step sizes [s]: the next; the last; the usual one, before an event shortened it
   double longest = 0;                    // [s]; 0: no limit
-  bool have_history = false;             // the last step's curve goes on into the next one
-  bool behind_event = false;             // the next step comes after an event
+  bool have_history = false;             // the last step's curve continues into the next one
+  bool behind_event = false;             // the next step is the first after an event
 
-  // Events, in parts of the usual step.
-  static constexpr double kCrossing = 1e-9;  // of the usual step: how far is gone to begin with to cross an event, at most
-  static constexpr double kLate = 1e-4;      // the same, per tolerance of the steps: all passes cross an event equally late, and their difference does not show it. Break-away of a stuck slider at 1e-7: 2e-9 s late without it
-  static constexpr double kAboveRounding = 2;     // times the rounding that has been met is taken off the error: that of one step is not that of the next
-  static constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
-  static constexpr double kMoment = 1e-6;    // of the usual step: how far is looked to see where accelerations lead
+  // Events.
+  static constexpr double kCrossing = 1e-9;  // upper limit, as a fraction of the usual step, on how far the first attempt at crossing an event goes beyond it
+  static constexpr double kLate = 1e-4;      // the same, per unit of the steps' tolerance: all passes cross an event equally late, so their difference does not show it. Without it the break-away of a stuck slider at 1e-7 is 2e-9 s late
+  static constexpr double kAboveRounding = 2;     // this multiple of the rounding error met so far is subtracted from the error: rounding differs from step to step
+  static constexpr double kAtOnce = 1e-2;    // fraction of the usual step: a jump that is crossed again within it may be held
+  static constexpr double kMoment = 1e-6;    // fraction of the usual step over which motions are extrapolated to see where accelerations lead
 
   void start(double h) {
     next = usual = h;
@@ -44,58 +44,58 @@ class StepControl {
     event_ = {};
   }
 
-  /// An event has been crossed: what was before it says nothing of what comes.
+  /// An event has been crossed: the motion before it is no guide to the motion after it.
   void event_crossed() {
     have_history = false;
     behind_event = true;
   }
-  /// A step of h has been made.
+  /// A step of h has been taken.
   void step_made(double h) {
     have_history = true;
     behind_event = false;
     last = h;
   }
 
-  /// The last event that was crossed, or that no step could be made to.
+  /// The last event that was crossed, or at which no step succeeded.
   const SwitchingEvent& event() const { return event_; }
-  /// The last event, if it came after `since`: whose, in which direction, when. Otherwise empty.
+  /// The last event, if it came after `since`: its function, direction and time. Otherwise empty.
   template <class S>
   std::string last_event(const BasicSystem<S>& system, double since) const;
 
-  /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
-  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_below_rounding(h),
-  /// forces_stay_constant(distance), cross_event(distance, event), taylor_step(distance), rebalance_end(), error_estimate(h, error) and finish_step(h).
+  /// One accepted step of `method`, not beyond t_end; its error estimate decreases as h^order. False when no step succeeded: `next` is then the last one tried. The method has t(),
+  /// begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_below_rounding(h), forces_stay_constant(distance), cross_event(distance,
+  /// event), taylor_step(distance), rebalance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
  private:
-  static constexpr int kMaxRetries = 80;          // trials of one step, at most
-  static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed, if forces hold until then
-  static constexpr int kSlow = 10;                // trials towards an event, after which they are taken for a sequence that comes nearer by a constant ratio: most come there in three
-  static constexpr int kFewShort = 3;             // steps in a row that end before an event and do not come to it: places are rounded, and no shorter step comes nearer. 1 to 6 are as good; with 0 steps at the corners of a table are six times as many
-  static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
-  static constexpr std::uint64_t kStepsBetween = 10;  // of two events of one function, at most, that count as in a row. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
-  static constexpr int kMostSame = 8;                 // in a row, after which the next ones are met only if they matter
-  static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
-  static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
-  static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
-  static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
-  static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
-  static constexpr double kVeryShort = 1e-6;      // of the run: steps that are shorter and do not grow may have met a floor
-  static constexpr int kMostAtFloor = 20;         // such steps in a row, after which one is tried that is twice as long
-  static constexpr double kShort = 0.9;           // of the way to an event that is only guessed at: so far the step goes
-  static constexpr double kAfterEvent = 0.3;      // of the usual step: the first step after an event, where nothing is known of it
-  // Of the way to an event: a step that ends so soon, for its error, is a usual one. Of the block in LinearContact half of it refuses 2400 steps and double of it
-  // 630, where this refuses 1100; not a step changes in the worn pins and wheels of the collection. With all of the way, pins that stick take twice the steps.
+  static constexpr int kMaxRetries = 80;          // attempts at one step, at most
+  static constexpr double kEventAtStart = 1e-5;   // fraction of the usual step: an event this close to a step's start is crossed there, if forces stay constant until then
+  static constexpr int kSlow = 10;                // attempts at reaching an event, after which they are taken for a sequence that converges by a constant ratio: most arrive in three
+  static constexpr int kFewShort = 3;             // steps in a row that end before an event without reaching it, before a Taylor step is tried: positions are rounded, and a shorter step gets no closer. 1 to 6 are equally good; 0 takes six times the steps at the corners of a table
+  static constexpr int kMostCrossed = 24;         // events crossed at the start of one step, at most
+  static constexpr std::uint64_t kStepsBetween = 10;  // steps between two events of one function, at most, for them to count as consecutive. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
+  static constexpr int kMostSame = 8;                 // consecutive events, after which further ones are crossed only if they matter
+  static constexpr double kShrink = 0.5;          // ratio of steps after Newton's iteration failed; also the most by which its contraction rate shortens the next step
+  static constexpr double kContraction = 0.2;     // contraction rate of Newton's iteration for which steps are chosen
+  static constexpr double kSteady = 0.9;          // fraction of the error of the previous attempt: above it, a shorter step has not reduced the error
+  static constexpr int kMostSteady = 3;           // shorter steps in a row that have not reduced the error, after which it is attributed to the accelerations at the start of the step
+  static constexpr double kMostRounding = 1e-11;  // fraction of the loads, a hundredth of the smallest tolerance: the largest error that may be rounding
+  static constexpr double kVeryShort = 1e-6;      // fraction of the run: shorter steps that do not grow may have reached a floor of rounding
+  static constexpr int kMostAtFloor = 20;         // very short steps in a row, after which one twice as long is tried
+  static constexpr double kShort = 0.9;           // fraction of the distance to an event that is only estimated: the next attempt covers this much
+  static constexpr double kAfterEvent = 0.3;      // fraction of the usual step: lower limit on the first step after an event, where no error is known
+  // Fraction of the distance to an event: a step limited by its error to less than this is a usual one. For the block in LinearContact half of it rejects 2400
+  // steps, twice it 630, this 1100; not a step changes in the worn pins and wheels of the collection. With 1, pins that stick take twice the steps.
   static constexpr double kOnTheWay = 0.01;
-  static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // of the step for which the error would be the tolerance; the least ratio of two steps; the largest; the largest after the first step
+  static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // factor on the step for which the error would equal the tolerance; smallest ratio of two steps; largest ratio; largest ratio after the first step
 
-  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // ratio of two steps from which on the step is kept, and with it the factorised Jacobians; up to which it is
+  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // smallest step ratio for which the step is kept, and with it the factorised Jacobians; largest ratio for which it is kept
 
-  static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
+  static constexpr double kLeastError = 0.01;  // relative to the tolerance: a smaller error is no guide to its growth
 
-  // Where the place of an event depends on how far the step goes beyond it, trials come nearer by a constant ratio: after a few the next one goes where
-  // they lead.
+  // Where the located position of an event depends on how far the step overshoots it, attempts converge by a constant ratio: after a few of them the
+  // next one goes to their limit.
   class Approach {
    public:
     double further(double h, double share, bool solved) {
@@ -106,20 +106,20 @@ class StepControl {
     }
 
    private:
-    double beyond_before_ = 0;  // by how much the trial before went beyond its event
-    int trials_ = 0;            // in a row that were solved, and did
+    double beyond_before_ = 0;  // by how much the previous attempt went beyond its event
+    int trials_ = 0;            // consecutive ones that were solved and went beyond it
   };
 
-  double last_error_ = 0;  // over the tolerance
+  double last_error_ = 0;  // relative to the tolerance
   int at_floor_ = 0;       // steps in a row
-  double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
-  int stopped_short_ = 0;                 // steps in a row that ended before an event, without one that was crossed
-  int same_ = 0, same_function_ = -1;     // events in a row of one function
-  std::uint64_t steps_at_event_ = 0;      // made before the last of them
-  double floor_h_ = 0, floor_error_ = 0;  // a step, and the error that shorter ones have not halved
+  double rounding_ = 0;    // rounding error of accelerations, relative to the tolerance: no step resolves it
+  int stopped_short_ = 0;                 // steps in a row that ended before an event, since the last one that was crossed
+  int same_ = 0, same_function_ = -1;     // consecutive events of one function
+  std::uint64_t steps_at_event_ = 0;      // steps taken before the last of them
+  double floor_h_ = 0, floor_error_ = 0;  // a step, and its error, which shorter steps have not halved
   SwitchingEvent event_;
 
-  // Events of one function with few steps between them: where nothing moves, the rounding of a speed is on either side of a kink.
+  // Events of one function with few steps between them: where nothing moves, rounding puts a speed on either side of a kink.
   void count_same(const SwitchingEvent& event, const Counters& counters) {
     same_ = event.function == same_function_ && counters.steps - steps_at_event_ <= kStepsBetween ? same_ + 1 : 1;
     same_function_ = event.function;
@@ -128,7 +128,7 @@ class StepControl {
   bool repeats(const SwitchingEvent& event, const Counters& counters) const {
     return event.function == same_function_ && same_ >= kMostSame && counters.steps - steps_at_event_ <= kStepsBetween;
   }
-  // Where nothing moves, a kink that the step's error does not show need not be met. What a law's states remember does.
+  // Where nothing moves, a kink that does not show in the step's error may be passed over. One at which a law sets its states may not.
   template <class Method>
   static bool matters(Method& method, const SwitchingEvent& event, double h, double tolerance) {
     double error = 0;
@@ -136,8 +136,8 @@ class StepControl {
   }
 
   bool is_at_start(double after) const { return after < 2 * kEventAtStart * usual; }
-  // Whether an event so far after the start of a step is crossed there. A touch may be ten thousand times as short as the flight before it: its end is only if
-  // forces stay what they are until then.
+  // Whether an event this long after the start of a step is crossed there. A contact may be ten thousand times as short as the flight before it: its end is
+  // crossed there only if forces stay constant until then.
   template <class Method>
   bool is_crossed_at_start(Method& method, double after) const {
     return is_at_start(after) && method.forces_stay_constant(after);
@@ -153,10 +153,10 @@ class StepControl {
     return is;
   }
 
-  // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
+  // The step ratio that suits Newton's iteration, after a step with this contraction rate; 0: rate not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
 
-  // An error of rounding just below the tolerance keeps steps as short as they happen to be.
+  // A rounding error just below the tolerance would keep steps at whatever short length they have.
   void leave_floor(double h, double t_end) {
     at_floor_ = next < kSameAbove * h && h < kVeryShort * std::abs(t_end) ? at_floor_ + 1 : 0;
     if (at_floor_ < kMostAtFloor) return;
@@ -164,14 +164,14 @@ class StepControl {
     at_floor_ = 0;
   }
 
-  // An error that grows goes on growing: K. Gustafsson's predictive controller.
+  // An error that grows is expected to continue to grow: K. Gustafsson's predictive controller.
   double foresee_growth(double factor, double h, double error, int order) const {
     if (!have_history || !(last > 0) || h < last || !(last_error_ > 0) || !(error > 0)) return factor;
     return std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
   }
 
-  // The far end of a step may lie beyond other events than one that is next to its start, and its curve need not be what a body at rest does: Taylor's series is
-  // better there. False where it does not lead to one within that time.
+  // For an event close to the start of a step Taylor's series is better than the step's curve: the far end of the step may lie beyond other events, and its
+  // curve need not be the motion of a body at rest. False where the series reaches no event within that time.
   template <class Method>
   static bool locate_on_taylor_series(Method& method, double within, double h, SwitchingEvent& event) {
     const SwitchingEvent closer = method.locate_event(within, false);
@@ -182,7 +182,7 @@ class StepControl {
     return true;
   }
 
-  // The first event within a step of h. A step that was not solved twice may have a jump inside.
+  // The first event within a step of h. A step that has failed twice may contain a jump.
   template <class Method>
   SwitchingEvent first_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
     SwitchingEvent event = method.locate_event(h, solved);
@@ -200,7 +200,7 @@ class StepControl {
     method.begin_at_end();
   }
 
-  // Steps may end before an event over and over where places are rounded. A step of its own leads up to it then, by Taylor's series; false where that has no event.
+  // Rounded positions may make steps end before an event over and over. Then a Taylor step of its own leads up to it; false if the series has no event.
   template <class Method>
   bool make_taylor_step(Method& method, double h, SwitchingEvent event) const {
     const double ahead = event.before * h;
@@ -213,7 +213,7 @@ class StepControl {
   void accept(double h, double factor, bool up_to_event) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
     stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
-    if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this stump
+    if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this shortened step
     else usual = next;
   }
 };
@@ -222,12 +222,12 @@ template <class Method>
 bool StepControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
-  bool up_to_event = false, refused = false;  // by Newton's iteration
-  double error_before = 0;                   // of the trial before, over the tolerance
-  int steady = 0;                            // trials in a row that were shorter, and no better
-  bool renewed = false;                      // the start, for this trial
-  int crossed = 0;                           // events at its start
-  SwitchingEvent ahead;                      // the last that was located
+  bool up_to_event = false, refused = false;  // refused by Newton's iteration
+  double error_before = 0;                   // of the previous attempt, relative to the tolerance
+  int steady = 0;                            // consecutive attempts that were shorter, but no better
+  bool renewed = false;                      // the start has been, for this attempt
+  int crossed = 0;                           // events crossed at its start
+  SwitchingEvent ahead;                      // the last event located
   Approach approach;                         // to an event
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t(), last_bits = kLastBits * std::max(std::abs(method.t()), std::abs(t_end));
@@ -243,11 +243,11 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     }
     if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < 1) {
       ++counters.rejected;
-      h *= std::max(seen, kLeast);  // what Newton's iteration found may lie anywhere
+      h *= std::max(seen, kLeast);  // the solution of Newton's iteration may lie anywhere
       up_to_event = false;
       continue;
     }
-    // Functions that flicker about zero in the last bits are left alone after a while.
+    // Functions that change sign again and again in the last bits are ignored after a while.
     const SwitchingEvent event = (solved || retry > 0) && crossed < kMostCrossed ? first_event(method, h, solved, tolerance, counters) : SwitchingEvent{};
     if (event.after < 1) {
       ahead = event;
@@ -258,14 +258,14 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       event_ = ahead;
       cross_at_start(method, event.before * h, event, counters);
       ++crossed;
-      retry = -1;  // it has moved on
+      retry = -1;  // the start has moved on
       h = std::max(h, kAfterEvent * usual);
       continue;
     }
     if (event.after < 1) {
       up_to_event = true;
-      const bool at_end = solved && left - event.before * h <= last_bits;  // then there is nothing behind it
-      // So that the last stage is not on it.
+      const bool at_end = solved && left - event.before * h <= last_bits;  // then nothing follows it
+      // Keeps the last stage off the event.
       h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
       if (solved) ++counters.rejected;
       continue;
@@ -273,7 +273,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     double error = 0;
     if (!solved || !method.error_estimate(h, error)) {
       if (solved) ++counters.newton_failures;
-      // A force that jumps at a speed that rounding alone has left: the bodies are on one side or on the other in each iteration, whatever the step.
+      // A force that jumps at a speed that is pure rounding error: each iteration puts the bodies on one side or the other, whatever the step.
       if (!solved && h <= kShortestRefused * std::abs(t_end) && method.motion_is_below_rounding(h)) {
         method.taylor_step(h);
         next = std::max(h, kAfterEvent * usual);
@@ -307,7 +307,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     factor = foresee_growth(factor, h, error, order);
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
-    if (counters.steps > 0 && error > 0) factor = std::min(factor, of_contraction(method.contraction()));  // of a step without an error beyond rounding it says nothing
+    if (counters.steps > 0 && error > 0) factor = std::min(factor, of_contraction(method.contraction()));  // without an error above rounding the contraction is no guide
     if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) up_to_event = false;
     method.finish_step(h);
     ++counters.steps;
@@ -320,7 +320,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   return false;
 }
 
-/// When and how small the last step was, the event near it if there is one, and the joints with the largest residuals: (residual [m/s^2],
+/// Time and size of the last step, the event near it if there is one, and the joints with the largest residuals: (residual [m/s^2],
 /// joint) each.
 template <class S>
 std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);

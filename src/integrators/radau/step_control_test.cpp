@@ -5,7 +5,7 @@
 namespace pintle {
 namespace {
 
-// Its equations have no solution, and a function changes its sign at every start of a step.
+// Equations without a solution, and a function that changes sign at every start of a step.
 class Flickering {
  public:
   int crossings = 0, attempts = 0;
@@ -101,7 +101,7 @@ TEST(StepControl, StopsAtAnEventJustBeforeTheEndOfTheRun) {
   EXPECT_LT(method.attempts, 8);
 }
 
-// A step to it is shorter than the last bits of the end, and longer than those of the time.
+// The step to it is shorter than the last bits of the end time, but longer than those of the present time.
 TEST(StepControl, ReachesAnEventSoonHoweverFarTheEndIs) {
   constexpr double kBegin = 0.0118, kEvent = kBegin + 4e-9, kFarEnd = 2e6;
   OneEvent method(kBegin, kEvent);
@@ -115,7 +115,7 @@ TEST(StepControl, ReachesAnEventSoonHoweverFarTheEndIs) {
   EXPECT_GT(method.t(), kEvent);
 }
 
-// A body at rest whose places are rounded: a step's curve leads a part of the way to an event, Taylor's series all of it.
+// A body at rest, its position rounded: a step's curve leads part of the way to an event, Taylor's series all the way.
 class Resting {
  public:
   explicit Resting(double event) : at_(event) {}
@@ -158,7 +158,7 @@ class Resting {
   double t_ = 0, at_;
 };
 
-// A friction stay at rest, whose cord goes taut: rows on the way were those of the taut cord.
+// A friction stay at rest whose cord goes taut: output rows on the way were those of the taut cord.
 TEST(StepControl, LeadsUpToAnEventByAStepOfItsOwn) {
   constexpr double kEvent = 0.9;
   Resting method(kEvent);

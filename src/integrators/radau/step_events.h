@@ -1,5 +1,5 @@
-// Steps that end where a law or a load has a kink or a jump: found on the step's own curve, approached from before, and crossed by a step
-// too short to matter. The same for free bodies and over a joint tree. theory/time section 7.
+// Steps that end where a law or a load has a kink or a jump: located on the step's own curve, approached from before, and crossed by a
+// step too short to matter. The same for free bodies and over a joint tree. theory/time section 7.
 #pragma once
 
 #include <algorithm>
@@ -13,31 +13,31 @@
 
 namespace pintle {
 
-/// Of the loads: by how much joint forces may change on the way to an event that is crossed with the accelerations at its beginning, and by no more than the tolerance of the
-/// steps: what breaks away is loaded most just before it does, and no step sees the load that it gains on this way. Without it an elastic touch that is a ten-thousandth of the
-/// flight before it gains a tenth of its energy. With 1e-4 a lever that leaves its stop behind a jump of its motor does so at a time that wanders by more than its tolerance of 1e-8
-/// allows; with 1e-5 and 1e-6 it does not, and steps are no more.
+/// Upper limit, as a fraction of the loads and no more than the tolerance of the steps, on the change of joint forces on the way to an event that is crossed with the accelerations
+/// at the start of this way: a joint that breaks away is loaded most just before it does, and no step sees the load that it gains on this way. Without it an elastic contact a
+/// ten-thousandth as long as the flight before it gains a tenth of its energy. With 1e-4 a lever that leaves its stop after a jump of its motor does so at a time that varies by
+/// more than its tolerance of 1e-8 allows; with 1e-5 and 1e-6 it does not, and takes no more steps.
 constexpr double kMostForceChange = 1e-5;
-constexpr double kLeastForceChange = 1e-9;  // however small the tolerance is. With double of it the runners of tests/models/runners_on_a_track.toml miss a tolerance of 1e-8; smaller ones gain nothing
+constexpr double kLeastForceChange = 1e-9;  // lower limit, however small the tolerance. With twice it the runners of tests/models/runners_on_a_track.toml miss a tolerance of 1e-8; smaller values gain nothing
 inline double most_force_change(double tolerance) { return std::clamp(tolerance, kLeastForceChange, kMostForceChange); }
-/// Of the way to an event: where forces are looked at, since they may jump there.
+/// Fraction of the distance to an event at which forces are evaluated, since they may jump at the event.
 constexpr double kShareBeforeEvent = 0.999;
 
-/// `Method` derives from it and answers
+/// `Method` derives from it and provides
 ///   evaluate_switching_functions(x, h, value)                 the switching functions at share x of the step, on the curve through its stages
-///   forces_stay_constant(d)                     whether joint forces change by next to nothing until then, so that Taylor's series leads there
-///   extrapolate_switching_functions(d, value)   a time d ahead of the start, by Taylor's series: all there is to go by where the stages are not solved
+///   forces_stay_constant(d)                     whether joint forces change negligibly until then, so that Taylor's series is valid
+///   extrapolate_switching_functions(d, value)   a time d after the start, by Taylor's series: the only source where the stages are not solved
 ///   evaluate_switching_functions_at_end(value)
 ///   end_time(), end_motions(), end_state(), sliding()
 ///   extrapolate_end_state(d)                    the end, its work included, by Taylor's series
-///   motions_after(d)                            those a moment after the end
+///   motions_after(d)                            those a time d after the end
 ///   cross_borders()                             System::cross_borders between the values of `search_`
-///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much; what the law then stores more is supplied
-///   taylor_step(d)                                    a step of d by Taylor's series, on which forces stay what they are
-///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
-///   rebalance_end()                                 balance_end(); where accelerations change by what rounding makes of joint forces alone, no less is measured from now on
-///   compensate_late_crossing(late)              for an event that was a time `late` before the end: what pulls behind it, and has not since the start, has pulled for so long
-///   undo_compensation()                         the end is again what it was before `compensate_late_crossing`
+///   shift_gap(joint, d, rate)                   shifts the carried gap of a driven joint at the end, and its rate; what the law then stores more counts as supplied
+///   taylor_step(d)                              a step of d by Taylor's series, with constant forces
+///   balance_end()                               renews what laws and loads give at the end: forces, accelerations, powers
+///   rebalance_end()                             balance_end(); if accelerations change only by the rounding of joint forces, raises the load scale above it
+///   compensate_late_crossing(late)              for an event that was a time `late` before the end: applies the forces that act only after it for that time
+///   undo_compensation()                         restores the end as it was before `compensate_late_crossing`
 template <class Method, class S>
 class StepEvents {
  protected:
@@ -48,26 +48,26 @@ class StepEvents {
   SwitchingEvent locate_event(double h, bool solved);
   /// Whether a law sets its states there.
   bool sets_states(const SwitchingEvent& event) const { return events_of_.switching_functions()[static_cast<std::size_t>(event.function)].law_has_states; }
-  /// Whether no body goes farther in a step of h than the rounding of its place leaves open.
+  /// Whether no body moves in a step of h by more than the rounding of its position leaves open.
   bool rests(double h);
-  /// Whether what bodies move by within h is lost in the rounding of their places: no shorter step comes nearer to what happens then.
+  /// Whether the bodies' motion within h is lost in the rounding of their positions: a shorter step then gets no closer to the event.
   bool motion_is_below_rounding(double h);
-  /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
+  /// Crosses the event `distance` after the end and renews forces and accelerations there. A jump that is crossed back at once is held.
   void cross_event(double distance, const SwitchingEvent& event);
-  /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
+  /// At the end of a step: releases a ramp that the last bits have left, and crosses a border that they have crossed.
   void update_switching();
 
   /// The end of the last step before the borders that its last bits have crossed, where forces may jump.
   const BasicState<S>& end_before_borders() const { return border_crossed_ ? before_borders_ : static_cast<const Method&>(*this).end_state(); }
 
-  /// The state that stands for times between the last event that was crossed at a step's start and the end of its crossing, where a row may be: what comes behind the
-  /// event is no curve that leads back there. Null: t [s] is not there.
+  /// The state for times between the last event that was crossed at a step's start and the end of its crossing, where an output row may lie: the curve after the
+  /// event does not lead back there. Null: t [s] is not in between.
   const BasicState<S>* in_crossing(double t);
 
   StepControl control_;
   EventSearch search_;
   std::vector<LawCrossing> crossings_;
-  int sliding_load_ = -1;  // the first that was held at a jump
+  int sliding_load_ = -1;  // the first load held at a jump
 
  private:
   void compensate_late_crossing(double late, int function);
@@ -94,7 +94,7 @@ void StepEvents<Method, S>::reset_event_detection() {
   restart_search();
 }
 
-// As the motion was going on there.
+// Continues the motion before the event.
 template <class Method, class S>
 const BasicState<S>* StepEvents<Method, S>::in_crossing(double t) {
   if (!has_crossed_ || !(t < method().t()) || !(t >= before_crossing_.t)) return nullptr;
@@ -126,7 +126,7 @@ SwitchingEvent StepEvents<Method, S>::locate_event(double h, bool solved) {
 
 template <class Method, class S>
 bool StepEvents<Method, S>::rests(double h) {
-  constexpr double kStill = 1e-12;  // [m], [rad]: a thousand times the rounding of places within a few metres
+  constexpr double kStill = 1e-12;  // [m], [rad]: a thousand times the rounding of positions within a few metres
   const BasicState<S>& now = method().end_state();
   return std::all_of(now.v.begin(), now.v.end(), [h](const typename S::Vec& v) { return v.cwiseAbs().maxCoeff() * h < kStill; });
 }
@@ -151,7 +151,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
     method().extrapolate_end_state(d);
     method().evaluate_switching_functions_at_end(value);
   });
-  // A body cannot follow a target that jumps: its gap does.
+  // A body cannot follow a target that jumps: the gap jumps instead.
   for (int j = 0; j < events_of_.n_joints(); ++j)
     if (const auto jump = target_jump(events_of_, j, std::max(before, before + distance - beyond), method().end_time())) method().shift_gap(j, -jump->position, -jump->rate);
   method().cross_borders();
@@ -167,11 +167,11 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
     const bool held = enter_sliding(*jump, margin, size, method().sliding(), [this] { method().balance_end(); }, [&] { return margin_rate(*jump); });
     if (held && sliding_load_ < 0) sliding_load_ = jump->load;
   }
-  update_switching();  // what has been compensated may have crossed a border: of what slips at 1e-12 m/s, a load that jumps against it turns the way
+  update_switching();  // the compensation may have crossed a border: where surfaces slip at 1e-12 m/s, a load that jumps against them reverses the slip
   control_.event_crossed();
 }
 
-// Unless that leads back before the event, as where a jump is crossed again and again.
+// Undone if it leads back before the event, as where a jump is crossed again and again.
 template <class Method, class S>
 void StepEvents<Method, S>::compensate_late_crossing(double late, int function) {
   const auto is_positive = [&] {
@@ -183,7 +183,7 @@ void StepEvents<Method, S>::compensate_late_crossing(double late, int function) 
   if (is_positive() != behind) method().undo_compensation();
 }
 
-// How fast the argument of a jump changes at the end, by what it is a moment later.
+// The rate of a jump's argument at the end, from its value a moment later.
 template <class Method, class S>
 double StepEvents<Method, S>::margin_rate(const SlidingMode& jump) {
   const double d = StepControl::kMoment * control_.usual, t = method().end_time();

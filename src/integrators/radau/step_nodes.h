@@ -1,4 +1,4 @@
-// What an implicit step knows of its inside.
+// The interior of an implicit step.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct BasicStepNodes {
   std::vector<VecsOf<S>> a, gap_accel, force;
   std::vector<std::vector<double>> law_state, law_rate;  // of the laws' own states
   std::vector<std::array<double, 2>> power;  // supplied, lost [W]
-  /// In curved spaces: the rates of the bodies' increments from the start of the step at the nodes, and what their integral misses the end by.
+  /// In curved spaces: the rates of the bodies' increments at the nodes, and by how much their integral misses the step's end.
   std::vector<VecsOf<S>> increment_rate{};
   VecsOf<S> increment_bend{};
 };
