@@ -36,7 +36,7 @@ std::vector<FreeRate> free_rates(const System& system, const Vecs& q, const Vecs
   return out;
 }
 
-// The coordinate that a motor drives, else the first that moves.
+// The coordinate that a motor drives, or else the first one that moves.
 std::optional<FreeRate> reference(const Model& model, const std::vector<FreeRate>& rates) {
   double largest = 0;
   for (const FreeRate& r : rates) largest = std::max(largest, std::abs(r.rate));
