@@ -38,7 +38,7 @@ TEST(CheckMobility, FourBarHasOneFreedomAndOneLoop) {
 }
 
 // The third crank adds two constraints but forbids nothing new: forces along the cranks, (1, -2, 1), balance by
-// themselves. A crank's own x axis carries all of it at A, the ground's x and y axes share it at O.
+// themselves. At A it acts along the crank's own x axis alone, at O the ground's x and y axes share it.
 TEST(CheckMobility, ParallelogramMovesAgainstGrueblersCount) {
   for (const double error : {0.0, 1e-5}) {
     const CheckReport report = check_model(checked::five_bar_parallelogram(error));
