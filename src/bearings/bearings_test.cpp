@@ -130,13 +130,13 @@ TEST(Bearings, SteadyLoadAndSpeed) {
   EXPECT_NEAR(one.mean_speed, 100, 1e-10);
   EXPECT_NEAR(one.equivalent_load, 1000, 1e-9);
   EXPECT_NEAR(one.life, 1000, 1e-8);
-  EXPECT_NEAR(one.life_hours, 17453.2925, 1e-3);  // 1e9 turns at 954.93 turns a minute
+  EXPECT_NEAR(one.life_hours, 17453.2925, 1e-3);  // 1e9 turns at 954.93 turns per minute
   EXPECT_NEAR(one.static_safety, 5, 1e-12);
   EXPECT_NEAR(one.equivalent_load_error, 0, 1e-9);
   EXPECT_TRUE(one.wants.empty() && one.remarks.empty());
 }
 
-// ISO 281 with catalogue values: a 6204 with C = 13.5 kN under 2 kN at 1000 turns a minute; 6.75^3 = 307.546875 million turns.
+// ISO 281 with catalogue values: a 6204 with C = 13.5 kN under 2 kN at 1000 turns per minute; 6.75^3 = 307.546875 million turns.
 TEST(Bearings, LifeByHand) {
   const BearingSummary one = PinRun(ball(13500), 2000, 1000 * 2 * kPi / 60).summary();
   EXPECT_NEAR(one.life, 307.546875, 1e-8);

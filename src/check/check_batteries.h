@@ -17,7 +17,7 @@ CheckBattery jacobian_battery(const System& system, const State& assembled, cons
 /// Opposite forces, potentials, losses, rigid motion, and the power balance.
 CheckBattery energy_battery(const System& system, const State& assembled, const std::vector<CheckState>& states);
 
-// Their parts, one file each.
+// The parts of the batteries, one file each.
 void check_displacement_slopes(const System& system, const std::vector<CheckState>& states, CheckBattery& battery);
 void check_law_slopes(const System& system, const State& assembled, const std::vector<CheckState>& states,
                       CheckBattery& battery);

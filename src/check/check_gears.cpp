@@ -76,7 +76,7 @@ std::vector<CheckGear> check_gears(const System& system) {
 }
 
 TrainCheck check_train(const Model& model, const System& system, const Vecs& q, const CheckMobility& mobility) {
-  constexpr int kLargest = 300;  // freedoms
+  constexpr int kLargest = 300;  // degrees of freedom
   TrainCheck out;
   if (mobility.mobility != 1 || mobility.rank != mobility.freedoms - 1 || mobility.freedoms > kLargest) return out;
   std::vector<ConstraintRow> rows;

@@ -14,7 +14,7 @@ namespace {
 
 using S = Planar;
 
-constexpr int kManyBodies = 1000;  // fewer states beyond
+constexpr int kManyBodies = 1000;  // fewer states are checked beyond this
 
 std::string_view kind_of(const LoadData& load) {
   switch (load.kind) {

@@ -1,4 +1,4 @@
-// Small mechanisms, stated in code, for the tests of the checks.
+// Small mechanisms, defined in code, for the tests of the checks.
 #pragma once
 
 #include <cmath>

@@ -62,7 +62,7 @@ class SpanningForest {
         const int a = node(system_.joints[j].at.a), b = node(system_.joints[j].at.b), other = a == at ? b : a;
         if (by_[at] == j || by_[other] == j) continue;
         if (depth_[other] >= 0) {
-          if (a == at) closing_.push_back(j);  // met from both ends: taken once
+          if (a == at) closing_.push_back(j);  // reached from both ends, but counted once
           continue;
         }
         parent_[other] = at;

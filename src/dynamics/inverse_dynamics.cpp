@@ -410,7 +410,7 @@ void BasicInverseDynamics<S>::linearize_nonlinear_laws() {
   for (int j = 0; j < system_.n_joints(); ++j) linearized_[j] = is_nonlinear(j);
 }
 
-// A joint is redundant if it keeps a part of a force distribution that moves nothing.
+// Of arbitrary forces on all joints the part that moves nothing is kept: a joint where it does not vanish is redundant.
 template <class S>
 void BasicInverseDynamics<S>::linearize_redundant_laws(const BasicState<S>& state) {
   linearize_nonlinear_laws();

@@ -193,7 +193,7 @@ PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {
   return is_finite(pivots);
 }
 
-/// B becomes M B, of a factorised m.
+/// B becomes M B, with M from a factorised m.
 template <class T, int N>
 PINTLE_LANES void apply_lower(const Block<T, N>& m, Block<T, N>& B) {
   for (int i = N - 1; i > 0; --i)
@@ -259,7 +259,7 @@ PINTLE_LANES void subtract_transposed_product(RealRow& y, const RealBlock& A, co
   y.set(sum);
 }
 
-/// B becomes M B, of a factorised m.
+/// B becomes M B, with M from a factorised m.
 PINTLE_LANES void apply_lower(const RealBlock& m, RealBlock& B) {
   const Lanes<4> first = B.rows[0].lanes(), second = B.rows[1].lanes();
   B.rows[2].set(B.rows[2].lanes() + m(2, 0) * first + m(2, 1) * second);

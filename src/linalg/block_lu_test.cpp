@@ -258,7 +258,7 @@ TEST(Block, InversePivotsWithinTheBlock) {
     for (int j = 0; j < 3; ++j) EXPECT_EQ(one(i, j), i == j ? 1 : 0);
 }
 
-// Elimination done on sets: neighbours of an eliminated row become neighbours of each other.
+// Elimination on sets of neighbours: those of an eliminated row become neighbours of each other.
 TEST(BlockPattern, HoldsExactlyTheFillOfItsOrder) {
   for (const Graph& g : graphs()) {
     const BlockPattern p(g.n, g.pairs);

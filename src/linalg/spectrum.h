@@ -67,7 +67,7 @@ struct Spectrum {
   }
 };
 
-/// The real number alone, times four numbers: for solving the real system with several right-hand sides.
+/// The real number alone times four numbers, for solving the real system with several right-hand sides.
 template <int N>
 PINTLE_LANES Lanes<4> operator*(const Spectrum<N>& a, const Lanes<4>& b) {
   return a.x[N - 1] * b;

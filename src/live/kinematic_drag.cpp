@@ -15,9 +15,9 @@ namespace {
 using S = Planar;
 
 constexpr double kSoft = 1e-2;         // stiffness of the hold, as a fraction of that of the stiffest joint: it yields to every joint
-constexpr double kClosed = 1e-5;       // of the mechanism's size
+constexpr double kClosed = 1e-5;       // a joint is closed if its gap is below this fraction of the mechanism's size
 constexpr double kLongestMove = 0.05;  // upper limit on the displacement in one search, as a fraction of the mechanism's size
-constexpr double kReached = 1e-7;      // of the mechanism's size
+constexpr double kReached = 1e-7;      // the target is reached if the distance is below this fraction of the mechanism's size
 constexpr double kWorthwhile = 1e-3;   // as a fraction of a move: the search ends if the point moves less
 constexpr int kMostMoves = 24;
 constexpr int kHoldIterations = 30, kCloseIterations = 100;
@@ -157,7 +157,7 @@ class KinematicDrag::Linkage {
   const System own_;  // without the hold
   JointData hold_;    // a pin between the world and the held body
   System system_;     // with the hold as its last joint
-  Vecs q_, best_;     // best_: the last poses that closed
+  Vecs q_, best_;     // best_: the last poses that closed the joints
   std::vector<bool> open_;
   std::vector<double> gaps_;
   std::vector<S::Motion> m_;

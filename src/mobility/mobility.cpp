@@ -14,9 +14,9 @@ namespace {
 
 using S = Planar;
 
-constexpr int kDenseFreedoms = 450;      // orthogonal factors up to here, sparse ones beyond
+constexpr int kDenseFreedoms = 450;      // orthogonal factors are used up to here, sparse ones beyond
 constexpr int kNearbyFreedoms = 300;     // nearby positions are tried up to here
-constexpr int kSparseFreedoms = 200000;  // no rank beyond
+constexpr int kSparseFreedoms = 200000;  // no rank is computed beyond
 constexpr double kNearby = 0.05;         // distance of nearby positions, as a fraction of the arm's length [-]
 
 class MobilityCount {

@@ -234,7 +234,7 @@ TEST(Rank, ClosingMotionIsTheShortest) {
   EXPECT_EQ(rows, (std::vector<int>{0, 1}));
 }
 
-// The root mean square of the arms: of a pin at 3 m along x and one at 4 m along y from the centre of mass, each of which has one arm.
+// The root mean square of the arms of two pins, 3 m along x and 4 m along y from the centre of mass. Each pin has one arm.
 TEST(ConstraintRows, ArmsAreAveragedBySquares) {
   Model model;
   model.ground = {{"A", {3, 0}, 0}, {"B", {0, 4}, 0}};

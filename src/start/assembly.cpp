@@ -252,7 +252,7 @@ std::vector<bool> within_play(const System& system, const Vecs& q) {
 void demand_closed(const Model& model, const System& system, Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
   const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
-  constexpr int kMostListed = 20;         // joints that the message names
+  constexpr int kMostListed = 20;         // number of joints that the message names
   constexpr std::size_t kMostTried = 40;  // upper limit on the number of joints that are opened in turn
   std::vector<std::size_t> broken, misfitting;
   const std::vector<bool> loose = within_play(system, q);

@@ -1,4 +1,4 @@
-// Assembly: positions from rough guesses, velocities from inconsistent ones, joint forces to start with.
+// Assembly: positions from rough guesses, velocities from inconsistent ones, joint forces at the start.
 #include "start/assembly.h"
 
 #include <gtest/gtest.h>

@@ -246,7 +246,7 @@ struct Unbalanced {
   double size;  // [N]
   std::size_t body;
 };
-// The largest force that accelerates a body, where it is more than rounding.
+// The largest force that accelerates a body, if it exceeds roundoff.
 std::optional<Unbalanced> unbalanced(const Assembly& start) {
   const System& system = start.system;
   const State& state = start.state;

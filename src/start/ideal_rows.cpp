@@ -12,7 +12,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kDenseFreedoms = 900;  // coordinates up to which the rank of the constraints is found by a dense decomposition
+constexpr int kDenseFreedoms = 900;  // number of coordinates up to which the rank of the constraints is found by a dense decomposition
 
 std::string list_of_members(const CheckRedundancy& group) {
   constexpr std::size_t kShown = 8;

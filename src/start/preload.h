@@ -16,7 +16,7 @@ inline constexpr int kRedundantPasses = 30;  // upper limit while gaps do not ye
 inline constexpr int kCarefulPasses = 15;    // number of first passes that cross no border of a law
 inline constexpr double kMostGrowth = 2;  // upper limit on the growth of the largest joint force in a start that has not converged
 
-/// Whether joints start with the deflections that carry what the motion needs.
+/// Whether joints start with the deflections that carry the forces that the motion needs.
 inline bool is_preloaded(Start start) { return start == Start::kAssembled || start == Start::kSeated; }
 
 /// Whether bodies that only touch in this joint are apart by more than the roundoff of a mechanism of this size [m].
@@ -30,7 +30,7 @@ template <class S>
 void balance_start(const BasicSystem<S>& system, BasicState<S>& state);
 
 /// Completes `state` (q, v given): accelerations, gaps and forces. With `preload` the positions and velocities are moved
-/// by the (small) joint deflections; without it the joints start as the positions leave them.
+/// by the (small) joint deflections; without it the gaps follow from the given positions.
 template <class S>
 void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state);
 

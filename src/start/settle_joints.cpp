@@ -82,7 +82,7 @@ bool is_moderate(const BasicSystem<S>& system, const BasicState<S>& attempt, con
   return 2 * system.kinetic(change) <= share * twice_stored(attempt) + kFits * 2 * system.kinetic(given.v);
 }
 
-// The slowest rate of the gaps that count as fast [1/s].
+// The slowest rate of those gaps that count as fast [1/s].
 template <class S>
 double slowest_fast_rate(const BasicTimeScales<S>& time_scales) {
   double slowest = std::numeric_limits<double>::infinity();

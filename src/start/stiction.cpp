@@ -17,7 +17,7 @@ namespace {
 
 using S = Planar;
 
-// Holds one component where it is.
+// Holds one component at its present value.
 struct LockLaw {
   static constexpr std::string_view kWord = "lock";
   int component = 0;

@@ -191,7 +191,7 @@ TEST(ComparedVariants, ChangesAreOfTheFirstRun) {
   // A value that does not exceed its own error is no basis for a relative change.
   EXPECT_TRUE(std::isnan(v.joints[1].loads[1].peak_change));
   EXPECT_FALSE(v.joints[1].loads[2].there);
-  // A joint that the first run does not have.
+  // A joint missing in the first run.
   EXPECT_EQ(v.joints[2].joint, "new");
   EXPECT_FALSE(v.joints[2].loads[0].there);
   EXPECT_TRUE(v.joints[2].loads[1].there);

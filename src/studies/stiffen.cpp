@@ -355,7 +355,7 @@ class Procedure {
     return names;
   }
 
-  // Why no stiffness was enough.
+  // Explains why no stiffness was sufficient.
   void explain() {
     const StiffenStep &last = out_.steps.back(), &before = out_.steps[out_.steps.size() - 2];
     const auto worst = static_cast<std::size_t>(std::find(out_.quantities.begin(), out_.quantities.end(), last.where) - out_.quantities.begin());

@@ -148,7 +148,7 @@ TEST(StiffenByHand, RubberIsKept) {
   EXPECT_EQ(rubber.stated, 1e5);
   EXPECT_EQ(rubber.stiffness, 1e5);
   EXPECT_EQ(rubber.damping, 500);
-  // Without rubber B would carry all of the weight, a tenth more than with it.
+  // Without rubber B would carry the whole weight, a tenth more than with it.
   EXPECT_EQ(s.kept_where, "B");
   EXPECT_NEAR(s.kept_influence, 0.1, 1e-3);
   EXPECT_NE(s.reason.find("B: its own flexibility matters"), std::string::npos) << s.reason;
