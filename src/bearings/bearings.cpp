@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kNone = BearingSummary::kNone;
 constexpr double kMillion = 1e6, kHour = 3600;  // [s]
-constexpr double kTurnedBack = 1.001;           // path over swing: a pin that only goes on has 1
-constexpr double kMostShareOfRating = 0.5;      // ISO 281: of C, for its formula to hold
+constexpr double kTurnedBack = 1.001;           // ratio of path to swing: a pin that never reverses has 1
+constexpr double kMostShareOfRating = 0.5;      // upper limit on P, as a fraction of C, for the formula of ISO 281 to hold
 
-/// What a run tells of its joints, by name: a large mechanism has very many.
+/// Results of a run's joints, by name: a large mechanism has very many.
 class NamedParts {
  public:
   explicit NamedParts(const Trajectory& run) {
@@ -27,7 +27,7 @@ class NamedParts {
     for (const PinDuty& duty : run.duty) duties_.emplace(duty.joint, &duty);
   }
 
-  /// Null where there is none.
+  /// Null if there is none.
   const LoadSummary* load(const std::string& joint) const { return find(loads_, joint); }
   const PinDuty* duty(const std::string& joint) const { return find(duties_, joint); }
 
@@ -91,10 +91,10 @@ void add_pressure(const Bearing& bearing, const PinDuty* duty, double time, Bear
   out.peak_pv = radius / area * duty->peak_power;
 }
 
-// What its table says, and of the sizes that it leaves out what an oil film's law knows.
+// The values of its table; sizes that this omits are taken from an oil film's law.
 Bearing bearing_of(const Joint& joint) {
   Bearing out = joint.bearing.value_or(Bearing{});
-  const auto size = [&joint](const char* key) {  // a film that is linear needs none
+  const auto size = [&joint](const char* key) {  // a linear film needs none
     const auto stated = least_stated(joint.law, key);
     return stated && *stated > 0 ? stated : std::nullopt;
   };
@@ -104,7 +104,8 @@ Bearing bearing_of(const Joint& joint) {
   return out;
 }
 
-// Where an oil film is thinnest, of the rows, and how long it is thinner than its surfaces are rough.
+// The row in which an oil film is thinnest, and for how many rows it is thinner than its surfaces'
+// roughness.
 void add_film(const Joint& joint, const Trajectory& run, BearingSummary& out) {
   const auto roughness = least_stated(joint.law, "roughness");
   if (!roughness || run.n_rows() == 0) return;
@@ -153,7 +154,7 @@ std::vector<std::string> missing_sizes(const Bearing& bearing) {
   return wants;
 }
 
-// How far the forces of a chaotic motion may be others behind its horizon, over what they are.
+// How far the forces of a chaotic motion may differ after its horizon, relative to their values.
 double relative_scatter(const LoadSummary& load) {
   const auto relative = [](double scatter, double of) { return of > 0 ? scatter / of : 0; };
   return std::max(relative(load.rms_scatter, load.rms_after), relative(load.mean_scatter, load.mean_after));

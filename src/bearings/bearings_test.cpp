@@ -1,4 +1,4 @@
-// Lives, pressures and their errors against closed forms and numbers calculated by hand. theory/bearing_life
+// Lives, pressures and their errors against closed forms and values calculated by hand. theory/bearing_life
 #include "pintle/bearings.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ struct PinRun {
 Bearing ball(double dynamic, double stationary = 5000) { return {.type = "ball", .dynamic_load_rating = dynamic, .static_load_rating = stationary}; }
 Bearing plain(double diameter, double length) { return {.type = "", .pin_diameter = diameter, .pin_length = length}; }
 
-// A film of 40 um over a journal of 24 mm x 14 mm, whose pin comes as near to the bush as `thinnest` in one of its eleven rows.
+// A film of 40 um on a journal of 24 mm x 14 mm, with a film thickness of `thinnest` in one of its eleven rows.
 BearingSummary in_oil(double thinnest, bool recorded = true) {
   PinRun pin({}, 1000, 100);
   Joint& joint = pin.model.joints.front();
@@ -57,7 +57,7 @@ BearingSummary in_oil(double thinnest, bool recorded = true) {
   return pin.summary();
 }
 
-// Only where the motion is chaotic, and only of a force that is not promised to the end.
+// Only if the motion is chaotic, and only for forces that are not valid to the end.
 TEST(Bearings, ChaosIsSaid) {
   for (const auto& [outcome, horizon, said] : {std::tuple{Outcome::kHorizon, 0.4, true}, {Outcome::kHorizon, 1.0, false}, {Outcome::kCompleted, 0.4, false}}) {
     PinRun pin(ball(10000), 1000, 100);
@@ -80,7 +80,7 @@ TEST(Bearings, ChaosIsSaid) {
   }
 }
 
-// Less than a turn in one direction is no swing; what the bearing's table leaves out is not made up.
+// Less than a turn in one direction is not a swing; values missing in the bearing's table are not invented.
 TEST(Bearings, AShortTurnWithoutARating) {
   const BearingSummary one = PinRun({.type = "ball"}, 1000, 3).summary();
   EXPECT_TRUE(one.remarks.empty());
@@ -94,7 +94,7 @@ TEST(Bearings, NoTimeIsNoSpeed) {
   EXPECT_EQ(one.mean_speed, 0);
 }
 
-// Four sectors of a pin of 20 mm x 10 mm; the second has rubbed most, by 0.4 N*m.
+// Four sectors of a pin of 20 mm x 10 mm; the second has the most friction work, 0.4 N*m.
 TEST(Bearings, ALittleWearHasItsDepth) {
   Bearing bearing = plain(0.02, 0.01);
   bearing.wear_coefficient = 1e-15;
@@ -130,13 +130,13 @@ TEST(Bearings, SteadyLoadAndSpeed) {
   EXPECT_NEAR(one.mean_speed, 100, 1e-10);
   EXPECT_NEAR(one.equivalent_load, 1000, 1e-9);
   EXPECT_NEAR(one.life, 1000, 1e-8);
-  EXPECT_NEAR(one.life_hours, 17453.2925, 1e-3);  // 1e9 turns at 954.93 turns a minute
+  EXPECT_NEAR(one.life_hours, 17453.2925, 1e-3);  // 1e9 turns at 954.93 turns per minute
   EXPECT_NEAR(one.static_safety, 5, 1e-12);
   EXPECT_NEAR(one.equivalent_load_error, 0, 1e-9);
   EXPECT_TRUE(one.wants.empty() && one.remarks.empty());
 }
 
-// ISO 281 with the figures of a catalogue: a 6204 with C = 13.5 kN under 2 kN at 1000 turns a minute; 6.75^3 = 307.546875 million turns.
+// ISO 281 with catalogue values: a 6204 with C = 13.5 kN under 2 kN at 1000 turns per minute; 6.75^3 = 307.546875 million turns.
 TEST(Bearings, LifeByHand) {
   const BearingSummary one = PinRun(ball(13500), 2000, 1000 * 2 * kPi / 60).summary();
   EXPECT_NEAR(one.life, 307.546875, 1e-8);
@@ -149,7 +149,7 @@ TEST(Bearings, RollersHaveTenThirds) {
   EXPECT_NEAR(PinRun(bearing, 1000, 10).summary().life, 2154.4346900, 1e-6);  // 10^(10/3)
 }
 
-// Minkowski: whatever the force is off by, P is off by no more. theory/bearing_life Eq. (2.4)
+// Minkowski: the error of P is no larger than the error of the force. theory/bearing_life Eq. (2.4)
 TEST(Bearings, ForceErrorPassesToLoadAndLife) {
   PinRun pin(ball(10000), 1000, 100);
   pin.run.joints.front().error_estimate = 30;

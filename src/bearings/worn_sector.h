@@ -1,4 +1,4 @@
-// Of the sectors around a bush or pin, the one that is worn most. theory/bearing_life section 5.
+// The most worn sector of a bush or pin. theory/bearing_life section 5.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace pintle {
 
 struct WornSector {
   double work;    // [N*m]
-  double middle;  // from the axis, in sectors
-  double n;       // sectors around
+  double middle;  // its middle from the axis, in sectors
+  double n;       // number of sectors around
 
   double width() const { return 2 * std::numbers::pi / n; }      // [rad]
-  double angle() const { return width() * middle; }              // of its middle [rad]
+  double angle() const { return width() * middle; }              // angle of its middle [rad]
   double degrees() const { return middle * 360 / n; }
 };
 

@@ -6,17 +6,18 @@
 
 namespace pintle {
 
-constexpr double kSlopeTolerance = 1e-6;     // of differences of fourth order
-constexpr double kIdentityTolerance = 1e-9;  // of what should vanish but for rounding
+constexpr double kSlopeTolerance = 1e-6;     // for fourth-order differences
+constexpr double kIdentityTolerance = 1e-9;  // for quantities that should vanish apart from roundoff
 
-/// Jacobians, rates and second derivatives of joint displacements; tangents of laws, loads and expressions; the whole.
+/// Jacobians, rates and second derivatives of joint displacements; tangents of laws, loads and expressions; the whole
+/// mechanism.
 CheckBattery jacobian_battery(const System& system, const State& assembled, const std::vector<CheckState>& states,
                               double duration);
 
-/// Opposite forces, potentials, losses, rigid motion, and the account of powers.
+/// Opposite forces, potentials, losses, rigid motion, and the power balance.
 CheckBattery energy_battery(const System& system, const State& assembled, const std::vector<CheckState>& states);
 
-// Their parts, one file each.
+// The parts of the batteries, one file each.
 void check_displacement_slopes(const System& system, const std::vector<CheckState>& states, CheckBattery& battery);
 void check_law_slopes(const System& system, const State& assembled, const std::vector<CheckState>& states,
                       CheckBattery& battery);

@@ -1,4 +1,4 @@
-// The batteries pass on every joint type, and notice a wrong slope; kinks are no mistakes.
+// The batteries pass on every joint type and detect a wrong slope; kinks are not mistakes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ TEST(CheckDifferences, KinksAreLeftOutAndSharpBendsAreNot) {
   EXPECT_FALSE(tally.item().passed());
 }
 
-// The end of a smooth step: its slope is 0, and the differences say so in the limit only.
+// The end of a smooth step: its slope is 0, but the differences reach that only in the limit.
 TEST(CheckDifferences, SlopesWhoseSlopeJumpsAreLeftOut) {
   const auto start = [](double s) { return one(s > 0 ? 3 * s * s - 2 * s * s * s : 0.0); };
   Comparisons right("smooth step", 1e-6), wrong("smooth step", 1e-6);
@@ -68,7 +68,7 @@ TEST(CheckDifferences, SlopesWhoseSlopeJumpsAreLeftOut) {
   EXPECT_FALSE(wrong.item().passed());
 }
 
-// The differences fall towards the slope, and come to the rounding of the curve just above what is allowed.
+// The differences converge to the slope, but reach the roundoff of the curve just above the tolerance.
 TEST(CheckDifferences, SlopesWhoseDifferencesEndInRoundingAreLeftOut) {
   const auto start = [](double s) { return one(3e4 + 3.3 * s + (s > 0 ? 50 * s * s : 0)); };
   Comparisons right("cam", 1e-6), wrong("cam", 1e-6);
@@ -79,7 +79,7 @@ TEST(CheckDifferences, SlopesWhoseDifferencesEndInRoundingAreLeftOut) {
   EXPECT_FALSE(wrong.item().passed());
 }
 
-// Hertz' contact at the touch, and a ball bearing that is not loaded: the slope begins as a root.
+// Hertzian contact at first touch, and an unloaded ball bearing: the slope begins as a root.
 TEST(CheckDifferences, SlopesThatBeginAsARootAreLeftOut) {
   const auto hertz = [](double s) { return one(s > 0 ? 1e4 * std::pow(s, 1.5) : 0.0); };
   Comparisons right("hertz", 1e-6), wrong("hertz", 1e-6);
@@ -97,7 +97,7 @@ TEST(CheckDifferences, ANumberThatIsNoneDoesNotPass) {
   EXPECT_FALSE(tally.item().passed());
 }
 
-// Far enough from it to see every term, and not so far that joints carry loads of another order.
+// Far enough from it that every term shows, but not so far that joints carry loads of another order of magnitude.
 TEST(CheckStates, AreNearTheAssembledOne) {
   const Model model = checked::four_bar(1, 4, 4, 6, kPi / 3);
   const System system = build_system(model);
@@ -118,7 +118,7 @@ TEST(CheckStates, AreNearTheAssembledOne) {
     }
 }
 
-// A mass on a cord that comes off a drum of 0.3 m where only 20 mm of it are free: 0.7 mm nearer, and there would be no tangent.
+// A mass on a cord from a drum of 0.3 m, with only 20 mm of cord free: 0.7 mm nearer, and there would be no tangent.
 TEST(CheckStates, KeepTheEndOfARopeOutsideItsDrum) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Joints, EveryType,
                          testing::Values("revolute", "prismatic", "fixed", "slot", "rod", "rope", "belt", "gear", "rack"),
                          [](const auto& type) { return type.param; });
 
-// A rope exactly at its length: force and tangent jump there, and nobody is to blame.
+// A rope exactly at its length: force and tangent jump there, which is not a mistake.
 TEST(CheckBatteries, RopeAtItsKink) {
   Model model;
   model.gravity = {0, 0};
@@ -180,13 +180,13 @@ TEST(CheckBatteries, RopeAtItsKink) {
   rope.geometry = {{"length", 1}};
   model.joints = {rope};
   EXPECT_EQ(failures(check_model(model)), "");
-  // The kink is as much of one when the joint beside it is ten thousand times as stiff.
+  // The kink is recognised even if another joint is ten thousand times as stiff.
   model.bodies.push_back(checked::bar("arm", 20, 3, {0, 0}, 0, {{"O", {0, 0}, 0}}));
   model.joints.push_back(checked::joint("pin", "revolute", {"ground", "O"}, {"arm", "O"}, 1e10, 1e5));
   EXPECT_EQ(failures(check_model(model)), "");
 }
 
-// What a motor follows is compared with its differences, twice in each state: a rate and an acceleration. A constant speed has none.
+// A motor's target is compared with its differences, twice in each state: rate and acceleration. A constant speed has no target.
 TEST(CheckBatteries, FunctionsThatMotorsFollow) {
   const auto compared = [](const Model& model) -> std::int64_t {
     const CheckReport report = check_model(model);
@@ -202,12 +202,12 @@ TEST(CheckBatteries, FunctionsThatMotorsFollow) {
   scope.variables = {{"t", kBareNumber}};
   model.motors[0].law = std::get<ParsedExpression>(parse_expression("1.1 + 0.2*sin(3*t)", scope)).expression;
   EXPECT_EQ(compared(model), 8);
-  // At rest but for rounding, as a table at the seam of its period, and about to move.
+  // At rest apart from roundoff, as a table at the ends of its period, and about to move.
   model.motors[0].law = std::get<ParsedExpression>(parse_expression("1.1 + 12*t^2*cos(8*t) + 1e-17*t", scope)).expression;
   EXPECT_EQ(compared(model), 8);
 }
 
-// The floor is there where nothing else gives a scale.
+// The floor applies only if nothing else gives a scale.
 TEST(CheckDifferences, OneSlopeIsItsOwnScale) {
   Comparisons tally("line", 1e-6);
   tally.slopes(Eigen::MatrixXd::Constant(1, 1, 1e3), [](int, double s) { return one(1e3 * (1 + 1e-8) * s); }, Eigen::VectorXd::Constant(1, 1e-3), 1e-6, kHere);

@@ -19,8 +19,8 @@ double relative(double error, double scale) {
 }
 
 struct Difference {
-  Eigen::VectorXd central;  // fourth order
-  double bend = 0;          // of the one-sided slopes, second order
+  Eigen::VectorXd central;  // of fourth order
+  double bend = 0;          // difference of the one-sided slopes, of second order
 };
 
 Difference difference(const Comparisons::Curve& curve, double h) {
@@ -36,10 +36,10 @@ Difference difference(const Comparisons::Curve& curve, double h) {
 void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double step, double scale,
                         const CheckPlace& place) {
   constexpr int kShrinks = 4;     // each to a tenth
-  constexpr double kKink = 1e-2;  // one-sided slopes that differ so much at the shortest step, of the scale
-  constexpr double kSteady = 0.1; // a kink bends the slope by as much at every step: a smooth curve by less at shorter ones, rounding by more
-  constexpr double kFalls = 0.4;  // of the error at steps ten times as long: 0.1 where the slope is right and jumps itself, 0.32 where it begins as a root (Hertz at the touch), 1 where it is wrong
-  constexpr double kAlmost = 10;  // times the tolerance; a slope that is wrong by as much is seen all the same, unless rounding hides it at the next shorter steps
+  constexpr double kKink = 1e-2;  // as a fraction of the scale: one-sided slopes that differ by more at the shortest step mean a kink
+  constexpr double kSteady = 0.1; // relative change of the one-sided slopes' difference that still counts as constant: at a kink it is the same at every step, on a smooth curve smaller at shorter ones, from roundoff larger
+  constexpr double kFalls = 0.4;  // the error falls if it is below this fraction of that at steps ten times as long: 0.1 if the slope is right and has a kink itself, 0.32 if it begins as a root (Hertz at the touch), 1 if it is wrong
+  constexpr double kAlmost = 10;  // as a multiple of the tolerance: upper limit on a fallen error that may end in roundoff. A slope that is wrong by as much is still detected, unless roundoff hides it at the next shorter steps
   double best = INFINITY, bend = 0, bend_before = 0, error = INFINITY;
   bool falls = false, fell_to_best = false;
   for (int shrink = 0; shrink <= kShrinks; ++shrink, step /= 10) {
@@ -47,7 +47,7 @@ void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double
     const double size = std::max({scale, largest(slope), largest(d.central)});
     const double error_before = error;
     error = largest(slope - d.central);
-    falls = shrink > 0 && error < kFalls * error_before;  // at the shortest steps: long ones meet other kinks
+    falls = shrink > 0 && error < kFalls * error_before;  // at the shortest steps: long ones reach other kinks
     const double mismatch = relative(error, size);
     if (mismatch < 0.5 * best) fell_to_best = falls;
     best = std::isnan(mismatch) ? mismatch : std::min(best, mismatch);
@@ -55,7 +55,8 @@ void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double
     bend_before = bend;
     bend = d.bend / size;
   }
-  // What falls to the rounding of the curve, and almost to what is allowed, would have fallen further.
+  // An error that falls to the roundoff of the curve, and almost to the tolerance, would have fallen
+  // further.
   if (falls || (fell_to_best && best < kAlmost * item_.tolerance) || bend > kKink || (std::abs(bend - bend_before) < kSteady * bend && best <= bend)) {
     ++item_.at_kinks;
     return;

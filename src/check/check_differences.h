@@ -10,24 +10,24 @@
 
 namespace pintle {
 
-/// Where a comparison is made.
+/// The place of a comparison.
 struct CheckPlace {
   std::string_view kind, name;  // "joint", "A"
   int state = 0;                // 0: as assembled
 };
 
-/// Comparisons of one kind; the worst is kept with its place.
+/// Comparisons of one kind; keeps the worst one and its place.
 class Comparisons {
  public:
   Comparisons(std::string what, double tolerance) { item_.what = std::move(what), item_.tolerance = tolerance; }
 
   using Curve = std::function<Eigen::VectorXd(double)>;
-  /// Is `slope` the derivative of `curve` at 0? Mismatch relative to `scale` or to the slope, whichever is larger.
-  /// Starts with differences of fourth order over steps of `step`; shrinks them while they disagree, so that a sharp
-  /// bend is not taken for a mistake. Where the slopes on both sides differ for good, the curve has a kink, and nothing
-  /// is said; nor where the differences go to `slope` as the steps do, as at the ends of a smooth step.
+  /// Is `slope` the derivative of `curve` at 0? The mismatch is relative to `scale` or to the slope, whichever is
+  /// larger. Starts with fourth-order differences over steps of `step` and shrinks them while they disagree, so that a
+  /// sharp bend is not taken for a mistake. There is no verdict if the one-sided slopes differ at every step (a kink),
+  /// or if the differences converge to `slope` with the steps, as at the ends of a smooth step.
   void slope(const Eigen::VectorXd& slope, const Curve& curve, double step, double scale, const CheckPlace& place);
-  /// Columns of `slopes` against curve(column, s); all have the matrix's scale, or `floor` if that is larger.
+  /// Columns of `slopes` against curve(column, s), all relative to the matrix's scale, or to `floor` if that is larger.
   template <class CurveOfColumn>
   void slopes(const Eigen::MatrixXd& slopes, CurveOfColumn&& curve, const Eigen::VectorXd& steps, double floor,
               const CheckPlace& place) {

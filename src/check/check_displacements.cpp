@@ -20,7 +20,7 @@ class DisplacementSlopes {
     DisturbedLink bodies(system_, link, state, scratch);
     const RelativePose pose = bodies.pose();
     const LinkSteps steps = link_steps(link, pose, state.length);
-    if (!(steps.length > 1e-12)) return;  // two points in one place have no direction
+    if (!(steps.length > 1e-12)) return;  // two coincident points have no direction
     const JointKinematics here = bodies.kinematics(Vec6::Zero());
     const CheckPlace place{link.kind, link.name, state.number};
     Vec6 step;
@@ -39,14 +39,14 @@ class DisplacementSlopes {
   }
 
  private:
-  // A column of the ground is not used by anybody.
+  // Columns of the ground are not used.
   static Eigen::MatrixXd used(const DisturbedLink& bodies, Eigen::MatrixXd columns) {
     for (int c = 0; c < 6; ++c)
       if (!bodies.moves(c)) columns.col(c).setZero();
     return columns;
   }
 
-  // The rate of a slip is no rate of a gap.
+  // The rate of a slip is not the rate of a gap.
   static void leave_out_slip(const CheckLink& link, auto&& rows) {
     if (link.slip >= 0) rows.row(link.slip).setZero();
   }
@@ -60,15 +60,15 @@ class DisplacementSlopes {
 
   void look_at_rates(DisturbedLink& bodies, const CheckLink& link, const CheckState& state, const JointKinematics& here, const Mat36& G, const LinkSteps& steps,
                      const CheckPlace& place) {
-    constexpr double kRounding = 1e-9;  // of lengths and angles, with room: differences cannot see less
-    constexpr double kLeastHurry = 100;  // [1/s]: what stands still may be driven by functions of time, which change within 10 ms
-    constexpr double kAcross = 1e-3;  // of the bodies' speeds: what the rate of a gap is compared with where they move across it
+    constexpr double kRounding = 1e-9;  // as a fraction of lengths and angles, with a margin: differences cannot resolve less
+    constexpr double kLeastHurry = 100;  // lower limit [1/s]: a joint at rest may be driven by functions of time that change within 10 ms
+    constexpr double kAcross = 1e-3;  // as a fraction of the bodies' speeds: the rate of a gap is compared with this if they move across it
     const Vec6 v = bodies.velocities();
     const double spin = std::max(std::abs(v[2]), std::abs(v[5]));
     const double approach = here.rate.cwiseAbs().maxCoeff() + v.head<2>().norm() + v.segment<2>(3).norm();
     const double hurry = std::max(spin / steps.angle, approach / steps.length);  // steps per second
     const double dt = 1 / std::max(hurry, kLeastHurry);
-    // A gap across which the bodies move, such as of a spring on a ball that goes round its foot, changes by what rounding leaves of the motion.
+    // If the bodies move across a gap, such as that of a spring on a ball circling its foot, the gap changes only by the roundoff of the motion.
     const double size = (G.cwiseAbs() * v.cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff() + kAcross * approach + kRounding * std::max(state.length, 1.0) / dt;
     S::Vec of_gap = here.rate;
     leave_out_slip(link, of_gap);
@@ -83,7 +83,7 @@ class DisplacementSlopes {
                              const RelativePose& pose, const JointKinematics& here, const Mat36& G, const Vec6& step,
                              const CheckPlace& place) {
     const Mat36 analytic = rate_gradient(link.displacement, pose, motion_of(link.at.a, state.m), motion_of(link.at.b, state.m));
-    // Rates that cancel in a gap which does not change, as of a cam in its dwell, leave their rounding.
+    // Rates that cancel in a constant gap, as of a cam in its dwell, leave their roundoff.
     const double size = (G.cwiseAbs() * bodies.velocities().cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff() + pose.rate.cwiseAbs().maxCoeff();
     rate_gradient_.slopes(
         used(bodies, analytic), [&](int c, double s) { return bodies.kinematics(s * Vec6::Unit(c)).rate; }, step,

@@ -1,5 +1,5 @@
-// What a joint displacement makes of a force: opposite on both bodies, in force and in moment; and what a common rigid motion must
-// not change.
+// The forces of a joint displacement on its two bodies: equal and opposite, in force and in moment; and what a common rigid motion
+// must not change.
 #include <cmath>
 
 #include "check/check_batteries.h"
@@ -10,7 +10,7 @@ namespace {
 
 using S = Planar;
 
-// Turned about the origin by `angle` and then shifted, its velocity too.
+// The motion turned about the origin by `angle` and then shifted, including its velocity.
 S::Motion displaced(const S::Motion& m, double angle, const S::Point& shift) {
   S::Motion turn;
   turn.c = std::cos(angle);

@@ -17,9 +17,9 @@ namespace {
 
 using S = Planar;
 
-constexpr int kDenseFreedoms = 450;  // every mode up to here, the fastest alone beyond
+constexpr int kDenseFreedoms = 450;  // all modes up to here, only the fastest beyond
 
-// Columns scaled by the square root of the mass: K_m = sum k g g', g = M^-1/2 G'. A row touches two bodies.
+// Columns scaled by the square root of the mass: K_m = sum k g g', g = M^-1/2 G'. A row involves two bodies.
 class MassScaledRows {
  public:
   MassScaledRows(const System& system, const std::vector<ConstraintRow>& rows) : system_(system), rows_(rows) {
@@ -39,7 +39,7 @@ class MassScaledRows {
   void add(int i, double factor, Eigen::VectorXd& y) const {
     for_each(i, [&](int column, double value) { y[column] += factor * value; });
   }
-  // Calls use(j, stiffness, damping) for the row itself and for the others of its joint, by which it is coupled to them.
+  // Calls use(j, stiffness, damping) for the row itself and for the other rows of its joint, with the values that couple it to them.
   template <class Use>
   void for_each_coupled(int i, Use&& use) const {
     const ConstraintRow& row = rows_[i];
@@ -61,7 +61,7 @@ class MassScaledRows {
       for_each_coupled(i, [&](int j, double stiffness, double) { for_each(i, [&](int a, double x) { for_each(j, [&](int b, double y) { K(a, b) += stiffness * x * y; }); }); });
     return K;
   }
-  // The mode of shape x, of unit length.
+  // The mode with shape x of unit length.
   CheckMode mode(const Eigen::VectorXd& x) const {
     double stiffness = 0, damping = 0, most = -1;
     int dominant = 0;
@@ -132,7 +132,7 @@ std::vector<CheckMode> all_modes(const MassScaledRows& rows, int n_free) {
   return modes;
 }
 
-// The stiffest direction, by repeated multiplication from a start that holds every direction.
+// The stiffest direction, by power iteration from a vector with a component in every direction.
 CheckMode fastest_mode(const MassScaledRows& rows) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(rows.size());
   for (int i = 0; i < rows.n_rows(); ++i) rows.add(i, 1 + 0.5 * std::sin(i), x);
@@ -150,11 +150,11 @@ CheckMode fastest_mode(const MassScaledRows& rows) {
   return rows.mode(x.normalized());
 }
 
-// Laws with states of their own, as those of rubber, are stiffer and damp less the faster they vibrate: each component has the spring K and the damper C that are its
+// Laws with states of their own, such as rubber, become stiffer and less damped the faster they vibrate. Each component gets the spring K and the damper C for which
 // Z(mu) = K + mu C at the mu with which it vibrates alone, mu^2 m + Z(mu) = 0.
 void take_at_their_frequencies(const System& system, const std::vector<JointKinematics>& joint_kinematics, std::vector<ConstraintRow>& rows) {
-  constexpr int kPasses = 20;          // of a stiffness and its frequency, at most: three or four are enough
-  constexpr double kAgreement = 1e-6;  // of two frequencies, at which they end
+  constexpr int kPasses = 20;          // upper limit on passes of stiffness and frequency: three or four are enough
+  constexpr double kAgreement = 1e-6;  // relative change of the frequency at which the passes end
   const MassScaledRows scaled(system, rows);
   const S::Vec still = S::Vec::Zero();
   for (int i = 0; i < scaled.n_rows(); ++i) {
@@ -174,7 +174,7 @@ void take_at_their_frequencies(const System& system, const std::vector<JointKine
       impedance.find(tangents, mu);
       const std::complex<double> Z = impedance.weight[S::kDof * row.component + row.component];
       const double damping = Z.imag() / mu.imag(), stiffness = Z.real() - mu.real() * damping, decay = 0.5 * damping * mobility, square = stiffness * mobility - decay * decay;
-      if (!(stiffness > 0) || !(square > 0)) break;  // it creeps
+      if (!(stiffness > 0) || !(square > 0)) break;  // the component creeps
       row.stiffness = stiffness;
       row.damping = damping;
       const std::complex<double> before = std::exchange(mu, {-decay, std::sqrt(square)});
@@ -190,7 +190,7 @@ double dormand_prince_step(double frequency, double damping_ratio) {
   const auto growth = [](std::complex<double> z) {
     return std::abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0 * (1.0 + z / 5.0 * (1.0 + z / 5.0))))));
   };
-  constexpr double kMargin = 1e-6;  // for rounding
+  constexpr double kMargin = 1e-6;  // for roundoff
   const std::complex<double> root = std::sqrt(std::complex<double>(damping_ratio * damping_ratio - 1, 0));
   double shortest = std::numeric_limits<double>::infinity();
   for (const double sign : {1.0, -1.0}) {

@@ -12,7 +12,8 @@
 namespace pintle {
 namespace {
 
-// Along the bar the pin moves the mass alone, 1/m = 1/kg; across it also turns it, 1/m + r^2/I = 1 + 3 = 4 /kg.
+// Along the bar a force at the pin moves only the mass, 1/m = 1/kg; across the bar it also turns it, 1/m + r^2/I = 1 + 3 = 4
+// /kg.
 TEST(CheckFrequencies, BarOnAPin) {
   const CheckFrequencies f = check_model(checked::pendulum()).frequencies;
   const double k = 2e8, c = 3500, slow = std::sqrt(k), fast = std::sqrt(4 * k);
@@ -32,7 +33,7 @@ TEST(CheckFrequencies, BarOnAPin) {
   EXPECT_NEAR(f.explicit_step, dormand_prince_step(fast, 4 * c / (2 * fast)), 1e-6 * f.explicit_step);
 }
 
-// A bar on a pin to the ground, with another on its end: the same turned over, each joint naming its bodies the other way round.
+// The same mechanism with each joint naming its bodies in the opposite order.
 TEST(CheckFrequencies, DependOnNoOrderOfBodies) {
   Model model = checked::four_bar(1, 4, 4, 6, 60 * kDegree);
   const CheckFrequencies f = check_model(model).frequencies;
@@ -42,7 +43,7 @@ TEST(CheckFrequencies, DependOnNoOrderOfBodies) {
   for (std::size_t i = 0; i < f.modes.size(); ++i) EXPECT_NEAR(f.modes[i].frequency, turned.modes[i].frequency, 1e-9 * f.modes[i].frequency);
 }
 
-// A mass on rubber: mu^2 m + k (1 + sum r mu tau/(1 + mu tau)) = 0 at the frequency and the damping ratio that are stated.
+// A mass on rubber: mu^2 m + k (1 + sum r mu tau/(1 + mu tau)) = 0 at the reported frequency and damping ratio.
 TEST(CheckFrequencies, RubberVibratesByItsBranches) {
   Model model = checked::pendulum();
   model.joints[0].type = "fixed";
@@ -63,7 +64,7 @@ TEST(CheckFrequencies, RubberVibratesByItsBranches) {
 TEST(CheckFrequencies, DormandPrinceStep) {
   EXPECT_NEAR(dormand_prince_step(100, 1), 3.3066 / 100, 5e-5);
   EXPECT_NEAR(dormand_prince_step(10, 0), 0.1, 0.01);
-  EXPECT_LT(dormand_prince_step(100, 10), 3.4 / 1990);  // the fast root of strong damping
+  EXPECT_LT(dormand_prince_step(100, 10), 3.4 / 1990);  // the fast root with strong damping
 }
 
 TEST(CheckFrequencies, AsManyModesAsConstraints) {

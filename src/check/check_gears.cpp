@@ -36,7 +36,7 @@ std::vector<FreeRate> free_rates(const System& system, const Vecs& q, const Vecs
   return out;
 }
 
-// The coordinate that a motor drives, else the first that moves.
+// The coordinate that a motor drives, or else the first one that moves.
 std::optional<FreeRate> reference(const Model& model, const std::vector<FreeRate>& rates) {
   double largest = 0;
   for (const FreeRate& r : rates) largest = std::max(largest, std::abs(r.rate));
@@ -76,7 +76,7 @@ std::vector<CheckGear> check_gears(const System& system) {
 }
 
 TrainCheck check_train(const Model& model, const System& system, const Vecs& q, const CheckMobility& mobility) {
-  constexpr int kLargest = 300;  // freedoms
+  constexpr int kLargest = 300;  // degrees of freedom
   TrainCheck out;
   if (mobility.mobility != 1 || mobility.rank != mobility.freedoms - 1 || mobility.freedoms > kLargest) return out;
   std::vector<ConstraintRow> rows;

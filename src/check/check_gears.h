@@ -12,12 +12,12 @@ namespace pintle {
 std::vector<CheckGear> check_gears(const System& system);
 
 struct TrainCheck {
-  std::string reference;  // "joint.coordinate"; empty: nothing to tell
+  std::string reference;  // "joint.coordinate"; empty: nothing to report
   std::vector<CheckTransmission> ratios;
 };
 
 /// Rates of all joints per unit rate of a driven (else of the first) coordinate at positions q, for a mechanism with
-/// gears and a single freedom.
+/// gears and a single degree of freedom.
 TrainCheck check_train(const Model& model, const System& system, const Vecs& q, const CheckMobility& mobility);
 
 }  // namespace pintle

@@ -12,7 +12,7 @@ using S = Planar;
 }  // namespace
 
 LawSample law_sample(const JointData& joint, const State& assembled, int j, const CheckState& state) {
-  constexpr double kSmall = 1e-6;  // of the mechanism's length, where the assembled gap says nothing
+  constexpr double kSmall = 1e-6;  // as a fraction of the mechanism's length: gap size where the assembled gap is no guide
   LawSample out;
   const auto resistance = [&joint](double side) -> S::Vec { return respond(joint.law, side * S::Vec::Ones(), S::Vec::Zero()).stiffness.diagonal(); };
   const double side = resistance(1).isZero() ? -1 : 1;

@@ -1,4 +1,5 @@
-// Gaps and rates at which a joint's law is checked: as assembled, and about as far on either side.
+// Gaps and rates at which a joint's law is checked: as assembled, and disturbed by about as much to either
+// side.
 #pragma once
 
 #include "check/check_links.h"
@@ -8,10 +9,11 @@ namespace pintle {
 struct LawSample {
   Planar::Vec gap, rate;            // [m, m, rad] and per second
   Planar::Vec gap_size, rate_size;  // typical of this joint
-  Planar::Vec loaded;               // a gap of this size on the side on which the law acts: surfaces that press do so below 0
+  Planar::Vec loaded;               // a gap of this size on the side on which the law acts: surfaces press at negative gaps
 };
 
-/// `state` 0 gives what the assembled state has; others are disturbed, with elastic and damping forces alike.
+/// `state` 0 gives the assembled values; others are disturbed so that elastic and damping forces are about
+/// equal.
 LawSample law_sample(const JointData& joint, const State& assembled, int j, const CheckState& state);
 
 }  // namespace pintle

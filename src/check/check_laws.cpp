@@ -1,4 +1,4 @@
-// Laws: tangents against differences; force downhill, losses, powers, finite numbers.
+// Laws: tangents against differences; force as energy gradient, losses, powers, finite numbers.
 #include <algorithm>
 #include <cmath>
 
@@ -21,13 +21,13 @@ void for_each_sample(const System& system, const State& assembled, const std::ve
     }
 }
 
-// Forces that are typical of a law: of its elastic part at the sample's sizes.
+// Typical forces of a law: those of its elastic part at the sample's sizes.
 S::Vec typical_force(const Law& law, const LawSample& at) {
   return respond(law, at.loaded, S::Vec::Zero()).force.cwiseAbs();
 }
 
 void downhill(const Law& law, const LawSample& at, const CheckPlace& place, Comparisons& tally) {
-  constexpr double kRounding = 1e-8;  // of the energy, with room: differences cannot see less
+  constexpr double kRounding = 1e-8;  // as a fraction of the energy, with a margin: differences cannot resolve less
   const Response r = respond(law, at.gap, S::Vec::Zero());
   const S::Vec size = typical_force(law, at);
   for (int k = 0; k < S::kDof; ++k)
@@ -39,7 +39,7 @@ void downhill(const Law& law, const LawSample& at, const CheckPlace& place, Comp
         1e-3 * at.gap_size[k], std::max(size[k], kRounding * r.energy / (1e-3 * at.gap_size[k])), place);
 }
 
-// What the law's force takes out of the bodies goes into its energy or is lost.
+// The power that the law's force takes from the bodies is stored or lost.
 void powers(const Law& law, const LawSample& at, const CheckPlace& place, Comparisons& account, Comparisons& loss) {
   const Response r = respond(law, at.gap, at.rate);
   const double stored = -respond(law, at.gap, S::Vec::Zero()).force.dot(at.rate), given = r.force.dot(at.rate);

@@ -14,7 +14,7 @@ namespace {
 
 using S = Planar;
 
-constexpr int kManyBodies = 1000;  // fewer states beyond
+constexpr int kManyBodies = 1000;  // fewer states are checked beyond this
 
 std::string_view kind_of(const LoadData& load) {
   switch (load.kind) {
@@ -28,7 +28,7 @@ std::string_view kind_of(const LoadData& load) {
   return "load";
 }
 
-// By how much the end of a belt or rope that is nearest to the other disc is outside it [m]; infinite: there are no discs.
+// The smallest distance by which an end of a belt or rope is outside the other disc [m]; infinite: there are no discs.
 double nearest_to_disc(const System& system, const CheckState& state) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const JointData& joint : system.joints) {
@@ -39,10 +39,10 @@ double nearest_to_disc(const System& system, const CheckState& state) {
   return nearest;
 }
 
-// Near enough for both ends of every belt to stay outside its discs, where it has a way between them.
+// A state near enough for both ends of every belt to stay outside its discs, where a run between them exists.
 CheckState disturbed(const CheckState& from, const System& system, double duration, int number) {
-  constexpr double kShift = 0.02;        // of the length; [rad]
-  constexpr double kTowardsDiscs = 0.1;  // of the way from the end of a belt to a disc: the most that a body is moved
+  constexpr double kShift = 0.02;        // as a fraction of the length; [rad]
+  constexpr double kTowardsDiscs = 0.1;  // upper limit on the shift of a body, as a fraction of the distance from the end of a belt to a disc
   const double of_length = std::min(kShift, kTowardsDiscs * nearest_to_disc(system, from) / from.length);
   CheckState state = from;
   Noise noise(77u + static_cast<unsigned>(number));
@@ -70,7 +70,7 @@ std::vector<CheckLink> check_links(const System& system) {
 
 double Noise::operator()() {
   state_ =
-      state_ * 6364136223846793005ULL + 1442695040888963407ULL;  // Knuth's linear congruence; its high bits are fair
+      state_ * 6364136223846793005ULL + 1442695040888963407ULL;  // Knuth's linear congruential generator; its high bits are good
   return static_cast<double>(state_ >> 11) * 0x1p-52 - 1;
 }
 

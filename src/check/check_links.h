@@ -1,4 +1,5 @@
-// What the batteries check: every joint, servo, spring and motor as a joint displacement between two bodies, in a few states.
+// The objects that the batteries check: every joint, servo, spring and motor as a joint displacement between two bodies, in a
+// few states.
 #pragma once
 
 #include <string>
@@ -15,11 +16,11 @@ struct CheckLink {
   Placement at;
   JointDisplacement displacement;
   int joint = -1;  // of the system; -1: a load
-  int slip = -1;   // component whose rate is no rate of its value; -1: none
+  int slip = -1;   // component whose rate is not the derivative of its value; -1: none
 };
 std::vector<CheckLink> check_links(const System& system);
 
-/// Something reproducible and shapeless between -1 and 1.
+/// Reproducible pseudorandom numbers between -1 and 1.
 class Noise {
  public:
   explicit Noise(unsigned long long seed) : state_(seed) {}
@@ -40,7 +41,7 @@ struct CheckState {
 };
 std::vector<CheckState> check_states(const Model& model, const System& system, const State& assembled);
 
-/// Steps that are short for a link: of lengths [m] and angles [rad].
+/// Short difference steps for a link: of lengths [m] and angles [rad].
 struct LinkSteps {
   double length, angle;
 };
@@ -58,10 +59,10 @@ class DisturbedLink {
   DisturbedLink(const DisturbedLink&) = delete;
   DisturbedLink& operator=(const DisturbedLink&) = delete;
 
-  /// With the positions of both bodies moved by dq, then everything moved on by `dt` at constant velocities.
+  /// With the positions of both bodies moved by dq, then everything advanced by `dt` at constant velocities.
   JointKinematics kinematics(const Vec6& dq, double dt = 0);
   RelativePose pose() const { return system_.pose(link_.at, m_); }
-  /// Velocities of both bodies, those of the ground zero.
+  /// Velocities of both bodies; zero for the ground.
   Vec6 velocities() const;
   bool moves(int column) const { return (column < 3 ? link_.at.a : link_.at.b) != kGround; }
 

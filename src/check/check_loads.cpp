@@ -1,4 +1,5 @@
-// Springs, motors and applied forces: tangents against differences, one load at a time; expressions likewise.
+// Springs, motors and applied forces: tangents against differences, one load at a time; the same for
+// expressions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace {
 
 using S = Planar;
 
-constexpr long kMaxLoadWork = 20'000'000;  // bodies times loads: beyond, the whole is compared only
+constexpr long kMaxLoadWork = 20'000'000;  // bodies times loads: beyond this only the whole mechanism is compared
 
 // A system with all bodies and a single load, without weight and joints.
 System weightless(const System& system) {
@@ -41,7 +42,7 @@ std::vector<int> bodies_of(const LoadData& load) {
 
 class LoadSlopes {
  public:
-  // Positions, then velocities, of the bodies that matter.
+  // Derivatives with respect to positions, then velocities, of the bodies involved.
   void look(const System& one, const CheckState& state, const std::vector<int>& bodies, const CheckPlace& place,
             double length) {
     const int n = S::kDof * static_cast<int>(bodies.size());
@@ -90,7 +91,7 @@ class LoadSlopes {
   Comparisons by_position_{"load derivatives, position", kSlopeTolerance}, by_velocity_{"load derivatives, velocity", kSlopeTolerance};
 };
 
-// The values an effort expression reads.
+// The input values of an effort expression.
 std::vector<double> signal_values(const System& system, const LoadData& load, const CheckState& state) {
   std::vector<double> values;
   for (const Signal& signal : load.signals) {
@@ -157,7 +158,7 @@ void check_load_slopes(const System& system, const std::vector<CheckState>& stat
     for (std::size_t i = 0; i < links.size(); ++i) {
       const LoadData& load = system.loads[i];
       const double length = link_steps(links[i], system.pose(load.at, state.m), state.length).length * 1e3;
-      if (!(length > 1e-9)) continue;  // two points in one place have no direction
+      if (!(length > 1e-9)) continue;  // two coincident points have no direction
       slopes.look(with_load(bodies, load), state, bodies_of(load), {links[i].kind, load.name, state.number}, length);
     }
     for (const AppliedData& force : system.applied)

@@ -1,4 +1,4 @@
-// Loops, mobility, redundancy, gears: mechanisms whose answers are known by hand.
+// Loops, mobility, redundancy, gears: mechanisms that can be solved by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ TEST(CheckMobility, FourBarHasOneFreedomAndOneLoop) {
 }
 
 // The third crank adds two constraints but forbids nothing new: forces along the cranks, (1, -2, 1), balance by
-// themselves. A crank's own x axis carries all of it at A, the ground's x and y axes share it at O.
+// themselves. At A it acts along the crank's own x axis alone, at O the ground's x and y axes share it.
 TEST(CheckMobility, ParallelogramMovesAgainstGrueblersCount) {
   for (const double error : {0.0, 1e-5}) {
     const CheckReport report = check_model(checked::five_bar_parallelogram(error));
@@ -60,7 +60,7 @@ TEST(CheckMobility, ParallelogramMovesAgainstGrueblersCount) {
   }
 }
 
-// All bars in one line: for an instant the links may move in two ways; an inch further they cannot.
+// All bars in one line: at this instant the links may move in two ways, slightly further on they cannot.
 TEST(CheckMobility, ChangePointIsASingularPosition) {
   const CheckReport report = check_model(checked::four_bar(1, 3, 1, 3, 0));
   EXPECT_EQ(report.mobility.rank, 7);
@@ -80,8 +80,8 @@ TEST(CheckMobility, BodiesWithoutGroundAreNamed) {
   EXPECT_EQ(report.mobility.mobility, 4);
 }
 
-// Two joints between the same two bodies are a loop of two; two pins there are two constraints too many by... none:
-// 4 constraints, 3 freedoms, rank 3.
+// Two joints between the same two bodies form a loop of two. Two pins have 4 constraints on 3 degrees of freedom,
+// with rank 3.
 TEST(CheckMobility, TwoPinsOnOneBodyAreOneTooMany) {
   Model model = checked::pendulum();
   model.ground.push_back({"tip", {0, 1}, 0});
@@ -113,7 +113,8 @@ TEST(CheckGears, RatiosOfPairsAndOfTheTrain) {
   EXPECT_EQ(report.transmission[1].unit, "m/rad");
 }
 
-// A ladder of parallelograms, large enough for the sparse way: each loop is one constraint short of Gruebler's count.
+// A ladder of parallelograms, large enough for the sparse method: each loop is one constraint short of Gruebler's
+// count.
 TEST(CheckMobility, LargeMechanismsAgreeWithSmallOnes) {
   Model model = checked::five_bar_parallelogram(0);
   const Model one = model;

@@ -1,4 +1,4 @@
-// The check as a whole: assembles twice (as unstrained as can be, and with its loads), then asks each part.
+// The check as a whole: assembles twice (as unstrained as possible, and under load), then runs each part.
 #include <algorithm>
 
 #include "check/check_batteries.h"
@@ -21,7 +21,7 @@ Assembly assembled(const Model& model, Start start) {
   } catch (const AssemblyError&) {
     if (model.simulate.start != Start::kRaw) throw;
   }
-  as.simulate.start = Start::kRaw;  // its gaps are meant
+  as.simulate.start = Start::kRaw;  // its gaps are intended
   Assembly out = assemble(as);
   out.notes.push_back("checked at the stated positions, where gaps are wider than after assembly");
   return out;
@@ -72,7 +72,7 @@ CheckBattery energy_battery(const System& system, const State& assembled, const 
 CheckReport check_model(const Model& model) {
   CheckReport report;
   count(model, report);
-  const bool settles = model.simulate.start == Start::kSettled;  // bodies may start inside each other, and only their rest has a meaning
+  const bool settles = model.simulate.start == Start::kSettled;  // bodies may start inside each other, and only their position of rest is meaningful
   const Assembly unstrained = assembled(model, settles ? Start::kSettled : Start::kUnloaded), loaded = settles ? unstrained : assembled(model, Start::kAssembled);
   report.notes = model.notes;
   report.notes.insert(report.notes.end(), loaded.notes.begin(), loaded.notes.end());

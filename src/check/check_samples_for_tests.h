@@ -1,4 +1,4 @@
-// Small mechanisms, stated in code, for the tests of the checks.
+// Small mechanisms, defined in code, for the tests of the checks.
 #pragma once
 
 #include <cmath>
@@ -91,7 +91,7 @@ inline Model five_bar_parallelogram(double error) {
   return model;
 }
 
-/// Two gears of 20 and 60 mm; a pinion of 25 mm on the second lifts a rack that stands to its left.
+/// Two gears of 20 and 60 mm; a pinion of 25 mm on the second lifts a vertical rack on its left.
 inline Model gear_train() {
   const double centre = 0.08, ways = centre - 0.025;
   Model model;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kMaxListedLoops = 1000;
 
-// A spanning forest of bodies (the ground is node n), grown breadth first so that loops come out short.
+// A spanning forest of bodies (the ground is node n), grown breadth first so that loops are short.
 class SpanningForest {
  public:
   explicit SpanningForest(const System& system)
@@ -27,12 +27,12 @@ class SpanningForest {
       if (depth_[i] < 0) floating_.push_back(grow(i));
   }
 
-  // Bodies of each tree that does not hold the ground.
+  // Bodies of each tree that does not contain the ground.
   const std::vector<std::vector<int>>& floating() const { return floating_; }
-  // Joints that close a loop, one each.
+  // The joints that close loops, one for each loop.
   const std::vector<int>& closing() const { return closing_; }
 
-  // The joints round the loop that joint j closes.
+  // The joints of the loop that joint j closes.
   std::vector<int> loop(int j) const {
     std::vector<int> up, down;
     int a = node(system_.joints[j].at.a), b = node(system_.joints[j].at.b);
@@ -62,7 +62,7 @@ class SpanningForest {
         const int a = node(system_.joints[j].at.a), b = node(system_.joints[j].at.b), other = a == at ? b : a;
         if (by_[at] == j || by_[other] == j) continue;
         if (depth_[other] >= 0) {
-          if (a == at) closing_.push_back(j);  // met from both ends: taken once
+          if (a == at) closing_.push_back(j);  // reached from both ends, but counted once
           continue;
         }
         parent_[other] = at;

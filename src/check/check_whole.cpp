@@ -1,4 +1,4 @@
-// The whole mechanism: the Jacobian of all forces along a few directions, and the account of all powers.
+// The whole mechanism: the Jacobian of all forces along a few directions, and the balance of all powers.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 using S = Planar;
 
-// All forces at (q + s dq, v + s dv), t held.
+// All forces at (q + s dq, v + s dv), with t fixed.
 class Forces {
  public:
   Forces(const System& system, const CheckState& state, const Vecs& dq, const Vecs& dv)
@@ -78,15 +78,15 @@ double shortest_step(const System& system, const CheckState& state) {
     const LinkSteps steps = link_steps(link, system.pose(link.at, state.m), state.length);
     if (steps.length > 1e-12) shortest = std::min({shortest, steps.length / state.length, steps.angle});
   }
-  return shortest;  // of motions of the size of the mechanism
+  return shortest;  // for motions of the size of the mechanism
 }
 
-// Powers of everything at a state, and the energy that motion at constant velocity would store.
+// All powers at a state, and the energy that motion at constant velocity would store.
 class PowerAccount {
  public:
   PowerAccount(const System& system, const CheckState& state) : system_(system), state_(state) {}
 
-  // The slope that the stored energy should have: what the forces and drives give and nobody loses.
+  // The slope that the stored energy should have: the power of the forces and drives minus the losses.
   double expected(double& size) const {
     const ExternalWork work = system_.external_work(state_.t, state_.q, state_.m);
     Vecs Q;
@@ -113,7 +113,7 @@ class PowerAccount {
     return power;
   }
 
-  // What is added up in `stored`, without signs [J].
+  // The sum of the terms of `stored` without their signs [J].
   double magnitude() const {
     double sum = std::abs(stored(0));
     for (int i = 0; i < system_.n_bodies(); ++i) sum += std::abs(system_.bodies[i].gravity.dot(state_.q[i]));
@@ -163,9 +163,9 @@ void check_whole_slopes(const System& system, const std::vector<CheckState>& sta
 }
 
 void check_power_account(const System& system, const std::vector<CheckState>& states, CheckBattery& battery) {
-  constexpr double kRounding = 1e-8;  // of the energies, with room: differences cannot see less
+  constexpr double kRounding = 1e-8;  // as a fraction of the energies, with a margin: differences cannot resolve less
   Comparisons account("power balance of the mechanism", kSlopeTolerance);
-  const System loads_alone = without_joint_forces(system);  // joint forces of disturbed states would drown the others
+  const System loads_alone = without_joint_forces(system);  // joint forces of disturbed states would swamp the others
   for (const CheckState& state : states) {
     for (const System* part : {&system, &loads_alone}) {
       const PowerAccount powers(*part, state);

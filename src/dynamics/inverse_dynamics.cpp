@@ -14,20 +14,20 @@ namespace pintle {
 
 namespace {
 
-constexpr int kClosing = 4;          // passes of a projection onto closed gaps, at most
-constexpr double kClosed = 1e-11;    // of what the first pass found: the next one finds nothing
-constexpr double kRedundant = 1e-3;  // of forces on all joints: what is left of it at a joint that others make redundant
-constexpr int kMostHalvings = 6;     // of the way to another place, on which a law does not come across a border, at most
+constexpr int kClosing = 4;          // upper limit on passes of a projection onto closed gaps
+constexpr double kClosed = 1e-11;    // passes end when the correction is below this fraction of the first one
+constexpr double kRedundant = 1e-3;  // as a fraction of test forces on all joints: a joint is redundant if more than this remains of its force
+constexpr int kMostHalvings = 6;     // upper limit on halvings of a step until no law crosses a border
 
-// The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
-// `moved`, when given).
+// The lowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (only components in
+// `moved`, if given).
 template <class S>
 double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointKinematics<S>>& r, const VecsOf<S>* moved = nullptr) {
   double slowest = std::numeric_limits<double>::infinity();
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     typename S::Vec k = joint.law.engaged_stiffness();
-    if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r[j].gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge that is touched
+    if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r[j].gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge in contact
     const typename S::Vec mobility = system.own_mobility(joint.at, r[j]);
     for (int c = 0; c < S::kDof; ++c) {
       if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;
@@ -37,7 +37,7 @@ double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointK
   return slowest;
 }
 
-// Whether a law that holds also resists the motion that the joint leaves free, as an oil film does.
+// Whether a holding law also resists the motion that the joint leaves free, as an oil film does.
 template <class S>
 bool drags(const BasicJointData<S>& joint) {
   if (joint.law.ideal_limit()) return false;
@@ -77,7 +77,7 @@ std::optional<BasicSystem<S>> with_springs(const BasicSystem<S>& system, const s
   return firm;
 }
 
-// 1 in the components that joints hold, whatever rubs in the others.
+// 1 in the components that joints hold, regardless of friction in the others.
 template <class S>
 VecsOf<S> held_components(const BasicSystem<S>& system) {
   VecsOf<S> held;
@@ -126,7 +126,7 @@ void BasicInverseDynamics<S>::release(const VecsOf<S>& components, const VecsOf<
   slack_ = slack;
 }
 
-// theory/assembly Eq. (5.7): what follows its law pushes as a load does.
+// theory/assembly Eq. (5.7): components left to their laws act as loads.
 template <class S>
 void BasicInverseDynamics<S>::push_by_laws(BasicState<S>& state) {
   for (std::size_t j = 0; j < by_law_.size(); ++j) {
@@ -146,7 +146,8 @@ void BasicInverseDynamics<S>::keep_states_of(const BasicState<S>& start) {
   for (const BasicJointKinematics<S>& r : r_) rest_rate_.push_back(r.rate);
 }
 
-// Friction, and what else acts in a free direction, pushes as a load does, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
+// Friction, and anything else that acts in a free direction, acts as a load, at the reactions that the gaps of the state carry. theory/assembly Eq.
+// (3.5).
 template <class S>
 void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
   for (const int j : rubbing_) {
@@ -165,13 +166,13 @@ void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
     for (int k = 0; k < S::kDof; ++k)
       if (!joint.held[k]) {
         f[k] = force[k];
-        state.force[j][k] = 0;  // what the joint force is to be found without
+        state.force[j][k] = 0;  // the joint force is found without it
       }
     add_force(joint.at, r_[j], f, Q_);
   }
 }
 
-// Over the components that a law holds.
+// The largest gap over the components that a law holds.
 template <class S>
 double BasicInverseDynamics<S>::largest_held(const VecsOf<S>& gap) const {
   double largest = 0;
@@ -181,10 +182,10 @@ double BasicInverseDynamics<S>::largest_held(const VecsOf<S>& gap) const {
   return largest;
 }
 
-// theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
+// theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then those that the joints require, then the forces.
 template <class S>
 bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
-  // Friction goes with the reactions: they are found again with the friction of the ones before.
+  // Friction depends on the reactions: they are found again with the friction of the previous ones.
   double last_change = std::numeric_limits<double>::infinity();
   for (int round = 1;; ++round) {
     if (!rubbing_.empty()) last_force_ = state.force;
@@ -261,13 +262,13 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
     for (int c = 0; c < S::kDof; ++c) {
       masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
       if (system_.n_joints() > kMostJointsWithMasses) continue;
-      masses.closed[j][c] = std::max(masses.closed[j][c], forces_of_unit_gap_acceleration(j, c)[j][c]);  // where no motion can change it alone, the force is 0
+      masses.closed[j][c] = std::max(masses.closed[j][c], forces_of_unit_gap_acceleration(j, c)[j][c]);  // if no motion can change this gap alone, the force is 0
     }
   }
   return masses;
 }
 
-// What a joint leaves free moves as the bodies do.
+// Components that a joint leaves free move with the bodies.
 template <class S>
 bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
   bool carried = true;
@@ -288,7 +289,7 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
   return carried;
 }
 
-// The joints that start free and do not touch where the bodies are; an edge has no spring that would hold it at a distance.
+// The joints that start free and do not touch at the bodies' positions; an edge has no spring that would hold it at a distance.
 template <class S>
 std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) const {
   std::vector<int> out;
@@ -300,7 +301,7 @@ std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) cons
   return out;
 }
 
-// The slack components, joint and component, that are not held and carry where the bodies have come to.
+// The slack components (joint and component) that are not held, but carry load at the new positions of the bodies.
 template <class S>
 std::vector<std::pair<int, int>> BasicInverseDynamics<S>::slack_drawn_taut(const VecsOf<S>& held) const {
   std::vector<std::pair<int, int>> out;
@@ -310,7 +311,7 @@ std::vector<std::pair<int, int>> BasicInverseDynamics<S>::slack_drawn_taut(const
   return out;
 }
 
-// Eq. (3.4). Joints that are apart stay as far apart as they are: the bodies beside them give way together.
+// Eq. (3.4). Joints that are apart keep their distance: the bodies on both sides move together.
 template <class S>
 void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   find_kinematics(state);
@@ -337,7 +338,7 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   };
   const PositionsOf<S> from = slack_.empty() ? PositionsOf<S>() : state.q;
   if (!close(held)) return;
-  // One rope that stays as long as it is may keep all others slack; where none does, all that would be drawn taut stay so.
+  // Keeping the length of one rope may keep all others slack. If no single one does, all that would be drawn taut keep theirs.
   if (const std::vector<std::pair<int, int>> taut = slack_drawn_taut(held); !taut.empty()) {
     const auto close_with = [&](const std::vector<std::pair<int, int>>& components) {
       VecsOf<S> holding_now = held;
@@ -392,7 +393,7 @@ bool BasicInverseDynamics<S>::set_forces_from_bodies(BasicState<S>& state) {
   return true;
 }
 
-// A function of its gap and rate, and not a linear one.
+// Whether the law is a nonlinear function of gap and rate alone.
 template <class S>
 bool BasicInverseDynamics<S>::is_nonlinear(int j) const {
   const BasicLaw<S>& law = system_.joints[j].law;
@@ -409,7 +410,7 @@ void BasicInverseDynamics<S>::linearize_nonlinear_laws() {
   for (int j = 0; j < system_.n_joints(); ++j) linearized_[j] = is_nonlinear(j);
 }
 
-// A joint is redundant with others where a force of its own is left of those that move nothing.
+// Of arbitrary forces on all joints the part that moves nothing is kept: a joint where it does not vanish is redundant.
 template <class S>
 void BasicInverseDynamics<S>::linearize_redundant_laws(const BasicState<S>& state) {
   linearize_nonlinear_laws();
@@ -421,7 +422,7 @@ void BasicInverseDynamics<S>::linearize_redundant_laws(const BasicState<S>& stat
   VecsOf<S> force(linearized_.size());
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicResponse<S> now = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]);
-    for (int k = 0; k < S::kDof; ++k) force[j][k] = now.stiffness(k, k) > 0 ? held[j][k] * std::cos(1.0 + S::kDof * j + k) : 0;  // of no direction in particular
+    for (int k = 0; k < S::kDof; ++k) force[j][k] = now.stiffness(k, k) > 0 ? held[j][k] * std::cos(1.0 + S::kDof * j + k) : 0;  // in no particular direction
   }
   const double given = largest_force(force);
   for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(none, none, force);
@@ -431,7 +432,7 @@ void BasicInverseDynamics<S>::linearize_redundant_laws(const BasicState<S>& stat
   }
 }
 
-// Where a law does not resist, as in its play, its tangent leads nowhere.
+// Where a law does not resist, as within its play, its tangent is useless.
 template <class S>
 void BasicInverseDynamics<S>::set_linearized_gaps_from_bodies(BasicState<S>& state) const {
   for (int j = 0; j < system_.n_joints(); ++j) {

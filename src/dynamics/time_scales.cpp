@@ -9,16 +9,16 @@
 namespace pintle {
 namespace {
 
-// theory/assembly Eq. (5.3). A gap is fast when its slower rate is this many times 1/span: then sweeps of section 4 gain digits, and what they leave
-// out is below (span/kFast)^2 of the force's curvature. Damping settles a rate at once when the faster one is kSettles times.
-constexpr double kFast = 20, kSettles = 100;  // slower rate of a gap over 1/span, above which it is fast; ratio of its two rates above which damping settles the faster one at once
+// theory/assembly Eq. (5.3). A gap is fast if its slower rate exceeds kFast/span: sweeps of section 4 then gain digits, and their truncation error
+// is below (span/kFast)^2 of the force's curvature. Damping settles a rate at once if the faster one exceeds kSettles/span.
+constexpr double kFast = 20, kSettles = 100;  // limits on a gap's slower and faster rate, as multiples of 1/span
 
 template <class Vec>
 bool any(const std::vector<Vec>& x) {
   return std::any_of(x.begin(), x.end(), [](const Vec& y) { return !y.isZero(); });
 }
 
-// Directions of a point that are equally stiff are treated alike: the slowest decides.
+// Equally stiff directions of a point get the same rates: those of the slowest.
 template <class Vec>
 void share_slowest_rate(const Vec& engaged, std::span<OwnRates> rates) {
   for (std::size_t i = 0; i < rates.size(); ++i)

@@ -12,11 +12,11 @@ namespace pintle {
 template <class S>
 struct BasicTimeScales {
   /// 1 for components of either kind, 0 for others, one vector per joint. Overdamped: relaxation k/c is slow, but damping
-  /// settles the rate at once. Resolved: the whole dynamics of the gap is part of the motion.
+  /// lets the rate decay at once. Resolved: the whole dynamics of the gap is part of the motion.
   VecsOf<S> overdamped, resolved;
   VecsOf<S> slow_rate;      // the slower of the gap's own two rates [1/s]; 0 without a stiffness
   VecsOf<S> effective_mass;  // BasicEffectiveMasses::closed, where it was measured
-  double fastest = 0;  // the fastest rate of resolved components, with their own two bodies alone [1/s]
+  double fastest = 0;  // the fastest rate of resolved components, each with its own two bodies alone [1/s]
 
   bool any_soft() const;
   bool any_resolved() const;
@@ -34,7 +34,7 @@ OwnRates own_rates(double m, double c, double k);
 template <class S>
 BasicTimeScales<S> all_fast(const BasicSystem<S>& system);
 
-/// Measures the components of all gaps at `state`, with the bodies that they move while other gaps stay closed.
+/// Measures all gap components at `state`, with the masses that they move while other gaps stay closed.
 template <class S>
 BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const BasicState<S>& state, double span);
 

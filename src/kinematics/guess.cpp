@@ -14,10 +14,10 @@ using S = Planar;
 
 bool joins_angles(const JointData& joint) { return is_pose_joint(joint) && joint.held[2]; }
 
-// The gap of a joint that is put together.
+// The gap of an assembled joint.
 S::Vec rest_gap(const JointData& joint) { return -joint.law.misfit(S::Vec::Zero()); }
 
-// Puts body `b` onto the joint's other half, as far from it as the joint is at rest; `other` is placed already.
+// Attaches body `b` to the joint's other half, at the joint's rest gap; `other` is already placed.
 void put(const JointData& joint, int b, const Model& model, const std::vector<S::Motion>& m, Vecs& q) {
   const bool is_second = joint.at.b == b;
   const int other = is_second ? joint.at.a : joint.at.b;
@@ -36,7 +36,7 @@ void put(const JointData& joint, int b, const Model& model, const std::vector<S:
   q[b][1] = p.y();
 }
 
-// The joints of each body; last those of the ground.
+// The joints of each body; those of the ground come last.
 std::vector<std::vector<int>> joints_of_bodies(const System& system) {
   std::vector<std::vector<int>> joints(system.n_bodies() + 1);
   for (int j = 0; j < system.n_joints(); ++j)
@@ -44,7 +44,7 @@ std::vector<std::vector<int>> joints_of_bodies(const System& system) {
   return joints;
 }
 
-// From body to body along the joints that hold a pose, breadth first.
+// Breadth-first walk from body to body along the joints that hold a pose.
 class PoseWalk {
  public:
   explicit PoseWalk(const System& system) : system_(system), joints_of_(joints_of_bodies(system)), reached_(joints_of_.size(), false) {}
@@ -55,7 +55,7 @@ class PoseWalk {
     reached_[body] = true;
     queue_.push_back(body);
   }
-  // visit(joint, body) for every body that is reached.
+  // Calls visit(joint, body) for every body reached.
   template <class Visit>
   void go_on(const Visit& visit) {
     const auto node = [this](int body) { return body == kGround ? system_.n_bodies() : body; };
@@ -79,7 +79,7 @@ class PoseWalk {
   std::deque<int> queue_;
 };
 
-// What of the velocity of the joint's body `b` is not stated, from the motion of the other one.
+// Sets the unstated velocities of the joint's body `b` from the motion of the other body.
 void follow(const JointData& joint, int b, const Body& stated, const std::vector<S::Motion>& m, S::Vec& v) {
   if (stated.velocity) return;
   const bool is_second = joint.at.b == b;
@@ -144,7 +144,7 @@ Vecs guess_velocities(const Model& model, const System& system, const Vecs& q) {
   PoseWalk walk(system);
   walk.begin_at_ground();
   walk.go_on(move);
-  // What does not hang on the ground: from where most is stated, whatever the order of the bodies.
+  // Bodies not connected to the ground: start where most is stated, independently of the order of the bodies.
   const auto begin_where = [&](const auto& is_stated) {
     for (int i = 0; i < system.n_bodies(); ++i) {
       if (walk.reached(i) || !is_stated(model.bodies[i])) continue;
@@ -174,7 +174,7 @@ std::string loop_through(const System& system, const std::string& text) {
     const int at = queue.front();
     queue.pop_front();
     for (const int j : joints_of[at]) {
-      if (j == start || system.joints[j].servo >= 0) continue;  // a servo acts along its joint, it closes nothing
+      if (j == start || system.joints[j].servo >= 0) continue;  // a servo acts in parallel with its joint and closes no loop
       const int a = node(system.joints[j].at.a), b = node(system.joints[j].at.b);
       if (by[a == at ? b : a] >= 0) continue;
       by[a == at ? b : a] = j;

@@ -1,4 +1,4 @@
-// First guesses along the joint graph, loops by name, and the search that closes them.
+// First guesses along the joint graph, names of loops, and the search that closes them.
 #include "kinematics/guess.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using sample::put_at;
 
 Body rod(const std::string& name) { return body(name, 1, 1, {{"L", {-0.5, 0}, 0}, {"R", {0.5, 0}, 0}}); }
 
-// A rod on a pin of the ground and one on its end, named from either side.
+// A rod on a ground pin and another on its end, with joints named from either side.
 TEST(Guess, PutsBodiesOnTheirNeighboursJoints) {
   for (const bool reversed : {false, true}) {
     Model model;
@@ -39,7 +39,7 @@ TEST(Guess, PutsBodiesOnTheirNeighboursJoints) {
   }
 }
 
-// A joint that holds the angle gives it on, by the angles of both its markers.
+// A joint that holds the angle passes it on, through the angles of both markers.
 TEST(Guess, AWeldGivesTheAngleOn) {
   Model model;
   model.ground = {{"O", {1, 0}, 0.7}};
@@ -49,12 +49,13 @@ TEST(Guess, AWeldGivesTheAngleOn) {
   const Vecs q = guess_positions(model, build_system(model));
   EXPECT_NEAR(q[0][2], 0.5, 1e-14);
   EXPECT_NEAR(q[1][2], 0.5 + 0.4 - 0.1, 1e-14);
-  // Its marker S is on the plate's.
+  // Its marker S coincides with the plate's.
   EXPECT_NEAR(q[1][0] - std::sin(q[1][2]), 1, 1e-14);
   EXPECT_NEAR(q[1][1] + std::cos(q[1][2]), 0, 1e-14);
 }
 
-// What is stated stays; what no joint leads to stands at the origin, and its neighbours on it.
+// Stated positions stay; a body that no joint leads to is put at the origin, and its neighbours are attached to
+// it.
 TEST(Guess, StatedPlacesStay) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
@@ -83,7 +84,7 @@ TEST(Guess, VelocitiesAreStatedOrZero) {
   EXPECT_EQ(v[1], Planar::Vec(0, 0, 3));
 }
 
-// A carriage that moves, an arm on it of which nothing is stated, and a hand of which the spin is.
+// A moving carriage, an arm on it with nothing stated, and a hand with a stated spin.
 TEST(Guess, WhatIsNotStatedMovesWithWhatItHangsOn) {
   Model model;
   model.bodies = {rod("carriage"), rod("arm"), rod("hand")};
@@ -102,7 +103,7 @@ TEST(Guess, WhatIsNotStatedMovesWithWhatItHangsOn) {
 
 TEST(LoopThrough, NamesTheJointsAlongIt) {
   Model model = sample::four_bar(1e8, 0);
-  // A dyad beside the loop, and a motor on a pin of it: neither belongs to it.
+  // A dyad outside the loop and a motor on one of the loop's pins: neither belongs to the loop.
   model.bodies.push_back(rod("tail"));
   model.bodies[1].markers.push_back({"T", {0, 1}, 0});
   model.joints.push_back(joint("T", "revolute", {"coupler", "T"}, {"tail", "L"}, 1e8, 0));
@@ -114,7 +115,7 @@ TEST(LoopThrough, NamesTheJointsAlongIt) {
   EXPECT_EQ(loop_through(system, "joint X is open"), "-");
 }
 
-// A bar between two pins of the ground whose distance is its own: one way up, one down; the nearer one is found.
+// With the crank held the loop closes in two positions, one up and one down; the nearer one is found.
 TEST(PositionSearch, ClosesTheNearerWay) {
   Model model = sample::four_bar(1e8, 0);
   System system = build_system(model);
@@ -129,7 +130,7 @@ TEST(PositionSearch, ClosesTheNearerWay) {
   PositionSearch(model, system, none).run(q);
   for (std::size_t i = 0; i < q.size(); ++i) EXPECT_LT((q[i] - exact[i]).norm(), 1e-12) << i;
   EXPECT_EQ(q[0], exact[0]);
-  // Without the pin B the follower stays where it is put.
+  // Without the pin B the follower stays where it was placed.
   q = exact;
   q[1] += Planar::Vec(0, 0, 0.2);
   std::vector<bool> open = none;
@@ -139,7 +140,7 @@ TEST(PositionSearch, ClosesTheNearerWay) {
   EXPECT_GT(std::abs(q[1][2] - exact[1][2]), 0.01);
 }
 
-// A rod whose length is 1 m at the start and grows: it is assembled as it is then.
+// A rod whose length is 1 m at the start and grows: it is assembled with its length at the start.
 TEST(PositionSearch, LengthsAreThoseOfTheStart) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
@@ -151,7 +152,7 @@ TEST(PositionSearch, LengthsAreThoseOfTheStart) {
   Vecs q{Planar::Vec(0.9, 0, 0)};
   PositionSearch(model, system, {false}).run(q);
   EXPECT_NEAR(q[0][0], 1, 1e-12);
-  // Between two rods, nearly in line: the first moves go too far and are taken back.
+  // Between two rods, nearly in line: the first steps go too far and are rejected.
   model.ground.push_back({"P", {1.5, 0}, 0});
   model.joints.push_back(joint("other", "rod", {"ground", "P"}, {"ball", "C"}, 1e8, 0));
   model.joints.back().functions.emplace("length", sample::expression("1 + 3*t"));
@@ -162,7 +163,7 @@ TEST(PositionSearch, LengthsAreThoseOfTheStart) {
   EXPECT_NEAR(q[0][1], std::sqrt(1 - 0.75 * 0.75), 1e-10);
 }
 
-// Coordinates that were stated give way a thousand times less.
+// Stated coordinates yield a thousand times less.
 TEST(PositionSearch, WhatIsStatedGivesWayLess) {
   Model model;
   model.bodies = {body("stated", 1, 1, {{"C", {0, 0}, 0}}), body("left_open", 1, 1, {{"C", {0, 0}, 0}})};

@@ -132,7 +132,7 @@ void PositionSearch::run(Vecs& q, int max_iterations) {
   }
 }
 
-// How much a coordinate resists being moved: what the user stated more than what he left open.
+// How much each coordinate resists being moved: stated ones more than unstated ones.
 Vecs PositionSearch::body_weights(const Vecs& q) const {
   double stiffest = 0;
   for (const auto& w : weight_) stiffest = std::max(stiffest, w.maxCoeff());

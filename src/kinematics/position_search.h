@@ -17,14 +17,14 @@ class LeastSquares {
   void hold(int body, int coordinate) { free_[body][coordinate] = 0; }
 
   bool prepare(const std::vector<JointKinematics>& r, const Vecs& joint_weight, const Vecs& body_weight);
-  /// G' W gap. What pull and solve return is good until they are asked again.
+  /// G' W gap. The results of pull and solve are valid until their next call.
   const Vecs& pull(const std::vector<JointKinematics>& r, const Vecs& joint_weight, const Vecs& gap);
   const Vecs& solve(const Vecs& rhs);
 
  private:
   using Row = BlockVec<double, Planar::kDof>;
   const System& system_;
-  Vecs free_;  // 0 where a coordinate is held: no gap reacts to it, so that nothing moves it
+  Vecs free_;  // 0 where a coordinate is held: its column of G is zero, so nothing moves it
   std::vector<BlockPattern::Slot> slots_;  // of each joint's bodies
   BlockLu<double, Planar::kDof> lu_;
   std::vector<Row> x_;
@@ -34,10 +34,10 @@ class LeastSquares {
 /// Kinematics of all joints at q, v.
 void kinematics_at(const System& system, double t, const Vecs& q, const Vecs& v, std::vector<Planar::Motion>& m, std::vector<JointKinematics>& r);
 
-/// The gap that assembly closes: a rope that hangs loose needs no closing.
+/// The gap that assembly closes: a slack rope needs no closing.
 Planar::Vec gap_to_close(const JointData& joint, const JointKinematics& r);
 
-/// The largest coordinate that the mechanism has [m].
+/// The largest coordinate of the mechanism [m].
 double mechanism_size(const System& system, const Vecs& q);
 
 /// The minimum of the joints' potential energy nearest to the guess, by Levenberg-Marquardt. theory/assembly Eqs. (1.1)-(1.4).

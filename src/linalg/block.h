@@ -20,7 +20,7 @@ inline bool is_finite(double a) { return std::isfinite(a); }
 template <class T>
 inline constexpr bool kPivots = true;
 
-/// Real symmetric matrices of variants in lanes are positive definite; what is not a number in one lane is that lane's affair.
+/// Real symmetric matrices of variants in lanes are positive definite; a NaN in one lane concerns only that lane.
 template <int N>
 inline constexpr bool kPivots<Lanes<N>> = false;
 template <int N>
@@ -43,7 +43,7 @@ struct Block {
   const T& operator()(int i, int j) const { return a[i * N + j]; }
 };
 
-/// Three numbers in a register. The fourth is nothing.
+/// Three numbers in a register. The fourth is unused.
 template <>
 struct BlockVec<double, 3> {
   alignas(32) std::array<double, 4> a{};
@@ -98,7 +98,7 @@ PINTLE_LANES void subtract_transposed_product(Block<T, N>& C, const Block<T, N>&
     }
 }
 
-/// C -= A' B where that is symmetric, and C too: its upper triangle is left alone.
+/// C -= A' B, where A' B and C are symmetric: the upper triangle of C is not changed.
 template <class T, int N>
 PINTLE_LANES void subtract_symmetric_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
   for (int i = 0; i < N; ++i)
@@ -110,10 +110,10 @@ PINTLE_LANES void subtract_symmetric_product(Block<T, N>& C, const Block<T, N>& 
     }
 }
 
-/// y -= A x, of vectors of N numbers of any kind.
+/// y -= A x, for vectors of N numbers of any type.
 template <class V, class T, int N>
 PINTLE_LANES void subtract_product(V& y, const Block<T, N>& A, const V& x) {
-  V sum = y;  // which x might stand in, as far as the compiler knows
+  V sum = y;  // which may alias x, as far as the compiler knows
   for (int j = 0; j < N; ++j)
     for (int i = 0; i < N; ++i) sum[i] -= A(i, j) * x[j];
   y = sum;
@@ -197,8 +197,8 @@ PINTLE_LANES bool factorize_pivoted(Block<T, N>& m, RowSwaps<N>& swaps) {
   return is_finite(pivots);
 }
 
-/// L D L' = m, symmetric, of which the lower triangle is read, without pivoting. In place: D^-1 on the diagonal and below it M = L^-1, whose diagonal is 1. False when a pivot
-/// is zero or not finite.
+/// Factorises the symmetric m = L D L' without pivoting, reading its lower triangle. In place: D^-1 on the diagonal and below it M = L^-1, whose diagonal is 1. False if a
+/// pivot is zero or not finite.
 template <class T, int N>
 PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {
   T lower[N], pivots = T(0.0);
@@ -216,7 +216,7 @@ PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {
   return is_finite(pivots);
 }
 
-/// B becomes M B, of a factorised m.
+/// B becomes M B, with M from a factorised m.
 template <class T, int N>
 PINTLE_LANES void apply_lower(const Block<T, N>& m, Block<T, N>& B) {
   for (int i = N - 1; i > 0; --i)
@@ -277,7 +277,7 @@ PINTLE_LANES Block<T, N> over_pivots(const Block<T, N>& m, const Block<T, N>& B)
   return out;
 }
 
-/// x becomes M' D^-1 M x: what a factorised m solves.
+/// x becomes M' D^-1 M x: solves with a factorised m.
 template <class V, class T, int N>
 PINTLE_LANES void apply_inverse(const Block<T, N>& m, V& x) {
   for (int i = N - 1; i > 0; --i)
@@ -287,7 +287,7 @@ PINTLE_LANES void apply_inverse(const Block<T, N>& m, V& x) {
     for (int i = j + 1; i < N; ++i) x[j] += m(i, j) * x[i];
 }
 
-// The same of real blocks, row by row.
+// The same for real blocks, row by row.
 using RealBlock = Block<double, 3>;
 using RealRow = BlockVec<double, 3>;
 
@@ -300,7 +300,7 @@ PINTLE_LANES void subtract_transposed_product(RealBlock& C, const RealBlock& A, 
   }
 }
 
-/// C -= A' B where that is symmetric, and C too.
+/// C -= A' B, where A' B and C are symmetric.
 PINTLE_LANES void subtract_symmetric_product(RealBlock& C, const RealBlock& A, const RealBlock& B) { subtract_transposed_product(C, A, B); }
 
 /// y -= A x.
@@ -318,7 +318,7 @@ PINTLE_LANES void subtract_transposed_product(RealRow& y, const RealBlock& A, co
   y.set(sum);
 }
 
-/// B becomes M B, of a factorised m.
+/// B becomes M B, with M from a factorised m.
 PINTLE_LANES void apply_lower(const RealBlock& m, RealBlock& B) {
   const Lanes<4> first = B.rows[0].lanes(), second = B.rows[1].lanes();
   B.rows[2].set(B.rows[2].lanes() + m(2, 0) * first + m(2, 1) * second);

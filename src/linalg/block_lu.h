@@ -23,12 +23,12 @@ class BlockLu {
         lower_(symmetric_ ? 0 : pattern.n_off_diagonal()), row_(symmetric_ ? pattern.longest_row() : 0), swaps_(symmetric_ ? 0 : pattern.n()) {}
 
   bool symmetric() const { return symmetric_; }
-  /// Nothing but its diagonal: entry(i, k) at place k of row i.
+  /// Sets the matrix to a diagonal one: entry(i, k) at place k of row i.
   template <class Entry>
   void set_diagonal(Entry&& entry) {
     for (int i = 0; i < pattern_->n(); ++i) set_diagonal(i, [&](int k) { return entry(i, k); });
   }
-  /// The same of row i alone, and of the column below it.
+  /// The same for row i alone, and the column below it.
   template <class Entry>
   PINTLE_LANES void set_diagonal(int i, Entry&& entry) {
     const int at = pattern_->position(i), end = pattern_->first(at + 1);
@@ -42,11 +42,11 @@ class BlockLu {
       if (!symmetric_) clear(lower_[a]);
     }
   }
-  /// The diagonal block of row i; of a symmetric matrix what stands above its diagonal is not read.
+  /// The diagonal block of row i; in a symmetric matrix the part above its diagonal is not read.
   Block<T, N>& diagonal(int i) { return diagonal_[pattern_->position(i)]; }
-  /// Whether this block is one of the matrix: a symmetric one has only the upper triangle.
+  /// Whether this block is stored: a symmetric matrix has only the upper triangle.
   bool has(BlockPattern::Slot s) const { return s.upper || !symmetric_; }
-  /// An off-diagonal block by its slot; transposed order of rows gives the other triangle.
+  /// An off-diagonal block by its slot; the opposite order of rows gives the other triangle.
   Block<T, N>& off_diagonal(BlockPattern::Slot s) { return s.upper ? upper_[s.index] : lower_[s.index]; }
   Block<T, N>& upper_at(int index) { return upper_[index]; }
   Block<T, N>& lower_at(int index) { return lower_[index]; }
@@ -58,7 +58,7 @@ class BlockLu {
     return true;
   }
 
-  /// Solves in place, rows in the user's numbering. What a row holds is N numbers like T, or several side by side for as many
+  /// Solves in place, rows in the user's numbering. A row holds N numbers like T, or several side by side for as many
   /// right-hand sides.
   template <class Rows>
   void solve(Rows& x) const {
@@ -70,7 +70,7 @@ class BlockLu {
     reduce(0, pattern_->n(), x, [](int, auto&) {});
     substitute(0, pattern_->n(), x, last);
   }
-  /// Factorises and solves, on one way through the rows there and one back. False when a pivot block is singular.
+  /// Factorises and solves, in one forward and one backward pass through the rows. False when a pivot block is singular.
   template <class Rows>
   bool factorize_and_solve(Rows& x) {
     if (!eliminate(0, pattern_->n(), x, [](int, auto&) {})) return false;
@@ -78,21 +78,21 @@ class BlockLu {
     return true;
   }
 
-  /// How many rows of the order can be eliminated once rows [0, n) are filled.
+  /// The number of rows of the order that can be eliminated once rows [0, n) are filled.
   int ready(int n, int from) const {
     const BlockPattern& p = *pattern_;
     for (; from < n; ++from)
       if (p.first(from) < p.first(from + 1) && p.column(p.first(from + 1) - 1) >= n) break;
     return from;
   }
-  /// The way there, of rows [from, to) of the order, which must be ready: they are factorised, and their right-hand sides reduced.
-  /// first(i, x[i]) is called before any use of row i's, though what other rows take off may be in it already. False when a pivot
-  /// block is singular.
+  /// The forward pass through rows [from, to) of the order, which must be ready: factorises them and reduces their right-hand
+  /// sides. first(i, x[i]) is called before any use of row i's, though other rows may already have been subtracted from it. False
+  /// when a pivot block is singular.
   template <class Rows, class First>
   PINTLE_LANES bool eliminate(int from, int to, Rows& x, First&& first) {
     return symmetric_ ? eliminate_rows<true>(from, to, x, first) : eliminate_rows<false>(from, to, x, first);
   }
-  /// The same of right-hand sides alone, by rows that have been factorised.
+  /// The same for right-hand sides alone, with rows already factorised.
   template <class Rows, class First>
   PINTLE_LANES void reduce(int from, int to, Rows& x, First&& first) const {
     for (int k = from; k < to; ++k) {
@@ -100,7 +100,7 @@ class BlockLu {
       else reduce_row<false>(k, x, first);
     }
   }
-  /// And the way back through rows [from, to), after those behind them; last(i, x[i]) as in solve.
+  /// The backward pass through rows [from, to), after the later rows; last(i, x[i]) as in solve.
   template <class Rows, class Last>
   PINTLE_LANES void substitute(int from, int to, Rows& rows, Last&& last) const {
     if (symmetric_) substitute_rows<true>(from, to, rows, last);
@@ -114,7 +114,7 @@ class BlockLu {
     fetch_upper(k);
     if (!symmetric_) fetch(lower_, pattern_->first(k), pattern_->first(k + 1) - pattern_->first(k));
   }
-  /// It will be substituted soon.
+  /// Row k will be substituted soon.
   PINTLE_LANES void fetch_upper(int k) const {
     if (k >= 0) fetch(upper_, pattern_->first(k), pattern_->first(k + 1) - pattern_->first(k));
   }
@@ -144,8 +144,8 @@ class BlockLu {
     return true;
   }
 
-  // Pivot blocks Z are L D L', and what stands above the diagonal becomes Z^-1 U: in a solve each row waits for one product with the
-  // row before it and for nothing else.
+  // Pivot blocks Z are L D L', and the blocks above the diagonal become Z^-1 U: in a solve each row waits only for one product with
+  // the previous row.
   PINTLE_LANES bool eliminate_upper(int k) {
     const BlockPattern& p = *pattern_;
     Block<T, N>*const diagonal = diagonal_.data(), *const upper = upper_.data(), *const row = row_.data();  // no store reaches these
@@ -178,7 +178,7 @@ class BlockLu {
     return true;
   }
 
-  // Row k on the way there.
+  // Row k in the forward pass.
   template <bool kSymmetric, class Rows, class First>
   PINTLE_LANES void reduce_row(int k, Rows& x, First& first) const {
     const BlockPattern& p = *pattern_;

@@ -41,7 +41,7 @@ std::vector<Graph> graphs() {
   return all;
 }
 
-// The systems that one matrix of T stands for: one real, or those of a spectrum.
+// The number of systems that one matrix of T represents: one real, or those of a spectrum.
 template <class T>
 constexpr int kSystems = 1;
 template <int N>
@@ -112,7 +112,7 @@ void compare_with_dense(const Graph& g, Random& random, Symmetry symmetry) {
       EXPECT_LT(worst, 1e-12 * (1 + expected[s].cwiseAbs().maxCoeff())) << g.name << " of " << g.n << ", system " << s;
     }
   };
-  // On one way there and back, where right-hand sides come in and solutions are taken as the rows are passed.
+  // In one forward and one backward pass, with right-hand sides supplied and solutions taken row by row.
   BlockLu<T, N> on_the_way = lu;
   std::vector<BlockVec<T, N>> rows(g.n), taken(g.n);
   const auto bring = [&](int i, BlockVec<T, N>& row) {
@@ -153,7 +153,7 @@ TEST(BlockLu, EverySolutionOfASpectrumIsTheDenseOne) {
     }
 }
 
-// Right-hand sides in lanes are solved as if each were alone.
+// Right-hand sides in lanes are solved as if each were separate.
 TEST(BlockLu, SolvesRightHandSidesSideBySide) {
   constexpr int N = 3;
   Random random(3);
@@ -188,7 +188,7 @@ TEST(BlockLu, SolvesRightHandSidesSideBySide) {
   }
 }
 
-// One of its systems is singular, or holds what is not a number: that is enough.
+// It is enough that one of its systems is singular or contains a NaN.
 template <int M>
 void expect_one_bad_system_is_reported() {
   using X = Spectrum<M>;
@@ -226,7 +226,7 @@ TEST(BlockLu, SingularMatrixIsReported) {
   }
 }
 
-// Two rows that say the same become a zero pivot block during the elimination.
+// Two identical rows lead to a zero pivot block during the elimination.
 TEST(BlockLu, DependentRowsAreReported) {
   const BlockPattern pattern(2, {{0, 1}});
   BlockLu<double, 3> lu(pattern);
@@ -293,7 +293,7 @@ TEST(BlockLu, NearlySingularPivotBlocksLeaveTheRestExact) {
   }
 }
 
-// Elimination done on sets: neighbours of an eliminated row become neighbours of each other.
+// Elimination on sets of neighbours: those of an eliminated row become neighbours of each other.
 TEST(BlockPattern, HoldsExactlyTheFillOfItsOrder) {
   for (const Graph& g : graphs()) {
     const BlockPattern p(g.n, g.pairs);

@@ -21,9 +21,9 @@ void BlockPattern::order_rows(const std::vector<std::pair<int, int>>& pairs) {
   for (int k = 0; k < n_; ++k) position_[order_[k]] = k;
 }
 
-// Rows with one neighbour left, or none, go first: they make no fill. Trees and chains are ordered by this alone, and
-// minimum degree, which may merge siblings, is left with what holds loops. Chains are eliminated from both ends at once, which is
-// faster by what a processor does side by side.
+// Rows with at most one remaining neighbour go first: they create no fill. This alone orders trees and chains; minimum degree,
+// which may merge siblings, is used only for the rows in loops. Chains are eliminated from both ends alternately, which a
+// processor executes in parallel.
 void BlockPattern::peel(const std::vector<std::pair<int, int>>& pairs) {
   std::vector<std::vector<int>> neighbours(n_);
   for (const auto& [i, j] : pairs) {
@@ -48,7 +48,7 @@ void BlockPattern::peel(const std::vector<std::pair<int, int>>& pairs) {
       if (position_[j] < 0 && --left[j] <= 1) take(j);
 }
 
-// The rows that have no place yet, by approximate minimum degree.
+// Orders the remaining rows by approximate minimum degree.
 void BlockPattern::order_core(const std::vector<std::pair<int, int>>& pairs) {
   std::vector<int> core, index(n_, -1);
   for (int i = 0; i < n_; ++i)
@@ -72,7 +72,7 @@ void BlockPattern::order_core(const std::vector<std::pair<int, int>>& pairs) {
   for (Eigen::Index k = 0; k < n; ++k) order_.push_back(core[permutation.indices()[k]]);
 }
 
-// Row k's fill pattern is its own couplings plus what it inherits from the rows whose first later neighbour it is.
+// Row k's fill pattern consists of its own couplings and those inherited from the rows whose first later neighbour it is.
 void BlockPattern::find_fill(const std::vector<std::pair<int, int>>& pairs) {
   std::vector<std::vector<int>> later(n_);
   for (const auto& [i, j] : pairs) {

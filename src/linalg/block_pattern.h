@@ -1,5 +1,5 @@
-// Where the blocks of a body-by-body matrix are: the joint graph, a fill-reducing order of elimination fixed once, and
-// the fill that the elimination makes. The pattern is symmetric; the values need not be.
+// The block structure of a body-by-body matrix: the joint graph, a fill-reducing order of elimination determined once,
+// and the resulting fill. The pattern is symmetric; the values need not be.
 #pragma once
 
 #include <utility>
@@ -10,7 +10,7 @@ namespace pintle {
 class BlockPattern {
  public:
   BlockPattern() = default;
-  /// `pairs` are (i, j), i != j, of rows that are coupled; repeats and either order are fine.
+  /// `pairs` are the coupled rows (i, j), i != j; repeats and either order are allowed.
   BlockPattern(int n, const std::vector<std::pair<int, int>>& pairs);
 
   int n() const { return n_; }
@@ -18,10 +18,10 @@ class BlockPattern {
   /// Position of row i in the order of elimination.
   int position(int i) const { return position_[i]; }
   int row_at(int position) const { return order_[position]; }
-  /// The same, of rows that are numbered by their positions.
+  /// The same pattern with rows numbered by their positions.
   BlockPattern in_order() const;
 
-  /// The off-diagonal block of (i, j) as rows of the user's numbering: its index, and whether it stands in the upper part.
+  /// The off-diagonal block of (i, j) as rows of the user's numbering: its index, and whether it is in the upper part.
   struct Slot {
     int index;
     bool upper;
@@ -32,7 +32,7 @@ class BlockPattern {
   // pair (a, b) of them the block that their product changes, as index + 1 of the upper block or -(index + 1) of the
   // lower one, or 0 for the diagonal.
   int first(int k) const { return first_[k]; }
-  int longest_row() const;  ///< upper blocks of one pivot, at most
+  int longest_row() const;  ///< largest number of upper blocks of a pivot
   int column(int index) const { return columns_[index]; }
   const int* updates(int k) const { return updates_.data() + first_update_[k]; }
 

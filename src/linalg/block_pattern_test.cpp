@@ -1,4 +1,4 @@
-// How much the order of elimination fills in, by counts.
+// Fill of the order of elimination, by counts.
 #include "linalg/block_pattern.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(BlockPattern, AForestIsEliminatedWithoutFill) {
 TEST(BlockPattern, ALadderFillsInProportion) {
   for (const int n : {500, 5000, 50000}) {
     const BlockPattern p(2 * n, ladder(n));
-    EXPECT_LE(p.n_off_diagonal(), 4.5 * n);  // 3 n are there without any fill
+    EXPECT_LE(p.n_off_diagonal(), 4.5 * n);  // 3 n without any fill
     EXPECT_LE(products(p), 12.0 * n);
   }
 }
@@ -53,7 +53,7 @@ TEST(BlockPattern, ThePartsOfAGraphThatHangOnALoopComeFirst) {
   Pairs pairs = chain(300);
   pairs.emplace_back(100, 160);
   const BlockPattern p(300, pairs);
-  EXPECT_LE(p.n_off_diagonal(), 300 + 58);  // the loop of 61 has one fill for each row but three
+  EXPECT_LE(p.n_off_diagonal(), 300 + 58);  // the loop of 61 has one fill for each row except three
   int last_outside = 0, first_inside = 300;
   for (int i = 0; i < 300; ++i)
     (i < 100 || i > 160 ? last_outside = std::max(last_outside, p.position(i)) : first_inside = std::min(first_inside, p.position(i)));

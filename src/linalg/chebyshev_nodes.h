@@ -10,8 +10,8 @@
 
 namespace pintle {
 
-/// Of sample i of n at the extrema of the Chebyshev polynomial of degree n - 1, in (n - 1)/2 times the coefficient of that of a lower degree. Of degree n - 1
-/// itself it gives twice as much. The sign is that of samples in either order.
+/// Weight of sample i of n, at the extrema of the Chebyshev polynomial of degree n - 1, in (n - 1)/2 times the coefficient of the polynomial of a lower
+/// degree. For degree n - 1 itself it gives twice as much. The sign fits samples in either order.
 inline double chebyshev_weight(int n, int degree, int i) {
   const double w = i == 0 || i == n - 1 ? 0.5 : 1;
   return w * std::cos(std::numbers::pi * i * degree / (n - 1));

@@ -38,7 +38,7 @@ struct ComplexLanes {
   }
 };
 
-/// Every lane answers for itself: what is not a number in one is looked for in what comes out.
+/// Each lane is checked separately: a NaN in one is looked for in the results.
 template <int N>
 PINTLE_LANES bool is_finite(const ComplexLanes<N>&) {
   return true;

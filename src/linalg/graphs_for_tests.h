@@ -1,4 +1,4 @@
-// Graphs to eliminate on, by their edges.
+// Graphs for elimination, given by their edges.
 #pragma once
 
 #include <utility>
@@ -26,7 +26,7 @@ inline Pairs star(int n) {
   return pairs;
 }
 
-// Every node has two below it.
+// Binary tree: every node has two children.
 inline Pairs tree(int n) {
   Pairs pairs;
   for (int i = 1; i < n; ++i) pairs.emplace_back((i - 1) / 2, i);

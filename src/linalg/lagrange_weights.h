@@ -5,7 +5,8 @@
 
 namespace pintle {
 
-/// Fills in out[first] .. out[end - 1]: what the values at the nodes of these numbers weigh at x. Nodes, out: anything with [].
+/// Fills out[first] .. out[end - 1] with the weights, at x, of the values at the nodes with these indices. Nodes, out: anything
+/// with [].
 template <class Nodes, class Out>
 void lagrange_weights(const Nodes& nodes, std::size_t first, std::size_t end, double x, Out& out) {
   for (std::size_t i = first; i < end; ++i) {

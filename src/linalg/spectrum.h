@@ -1,5 +1,5 @@
-// The numbers of a system that falls apart into N / 2 complex ones and a real one: all of them in one go through the block
-// factorisation. Lanes: (re, im) of each complex number, the real one last.
+// The numbers of a system that decouples into N / 2 complex systems and a real one: all of them pass through the block
+// factorisation together. Lanes: (re, im) of each complex number, the real one last.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct Spectrum {
   PINTLE_LANES friend Spectrum operator-(const Spectrum& a, const Spectrum& b) { return Spectrum(a.x - b.x); }
   PINTLE_LANES friend Spectrum operator-(const Spectrum& a) { return Spectrum(-a.x); }
   PINTLE_LANES friend Spectrum operator*(double f, const Spectrum& a) { return Spectrum(f * a.x); }
-  // (re re) (re im) + (im im) (-im re); where there is no imaginary part the second is nothing.
+  // (re re) (re im) + (im im) (-im re); without an imaginary part the second term is zero.
   PINTLE_LANES friend Spectrum operator*(const Spectrum& a, const Spectrum& b) {
     return Spectrum(Lanes<N>{real_parts(a.x.v) * b.x.v + imaginary_parts(a.x.v) * turned(b.x.v)});
   }
@@ -38,7 +38,7 @@ struct Spectrum {
   }
 
  private:
-  // The lanes of the complex numbers come first, in pairs. What is at place `from(i)` comes to place i.
+  // The lanes of the complex numbers come first, in pairs. The entry at place `from(i)` moves to place i.
   template <class From, std::size_t... I>
   PINTLE_LANES static Register rearranged(const Register& a, From, std::index_sequence<I...>) {
     return __builtin_shufflevector(a, a, From{}(I)...);
@@ -53,7 +53,7 @@ struct Spectrum {
   PINTLE_LANES static Register imaginary_parts(const Register& a) {
     return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i | 1 : i; });
   }
-  // Times the imaginary unit; of the real number nothing.
+  // Times the imaginary unit; zero for the real number.
   PINTLE_LANES static Register turned(const Register& a) { return signs(-1, 1, 0) * swapped(a); }
   PINTLE_LANES static Register swapped(const Register& a) {
     return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i ^ 1 : i; });
@@ -67,7 +67,7 @@ struct Spectrum {
   }
 };
 
-/// The real number alone, times four numbers: for solving the real system with several right-hand sides.
+/// The real number alone times four numbers, for solving the real system with several right-hand sides.
 template <int N>
 PINTLE_LANES Lanes<4> operator*(const Spectrum<N>& a, const Lanes<4>& b) {
   return a.x[N - 1] * b;
@@ -80,8 +80,8 @@ PINTLE_LANES bool is_finite(const Spectrum<N>& a) {
   return nothing == 0;
 }
 
-/// Each number would want a pivot of its own. None is needed: mass, damping and stiffness keep every one of them, turned by a
-/// common angle, in the right half plane, and so does elimination in any order. theory/time section 3.3.
+/// Each number would need its own pivots, but pivoting is not needed: with mass, damping and stiffness every pivot is, turned
+/// by a common angle, in the right half plane, and elimination in any order keeps it there. theory/time section 3.3.
 template <int N>
 inline constexpr bool kPivots<Spectrum<N>> = false;
 

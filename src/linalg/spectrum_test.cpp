@@ -1,4 +1,4 @@
-// The numbers of a spectrum against those of the standard library, one by one.
+// The numbers of a spectrum against the standard library's, one by one.
 #include "linalg/spectrum.h"
 
 #include <gtest/gtest.h>

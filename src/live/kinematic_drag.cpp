@@ -14,26 +14,26 @@ namespace {
 
 using S = Planar;
 
-constexpr double kSoft = 1e-2;         // of the stiffest joint: the hold, which gives way to every joint
-constexpr double kClosed = 1e-5;       // of the mechanism's size
-constexpr double kLongestMove = 0.05;  // of the mechanism's size, in one search
-constexpr double kReached = 1e-7;      // of the mechanism's size
-constexpr double kWorthwhile = 1e-3;   // of a move: how far the point goes
+constexpr double kSoft = 1e-2;         // stiffness of the hold, as a fraction of that of the stiffest joint: it yields to every joint
+constexpr double kClosed = 1e-5;       // a joint is closed if its gap is below this fraction of the mechanism's size
+constexpr double kLongestMove = 0.05;  // upper limit on the displacement in one search, as a fraction of the mechanism's size
+constexpr double kReached = 1e-7;      // the target is reached if the distance is below this fraction of the mechanism's size
+constexpr double kWorthwhile = 1e-3;   // as a fraction of a move: the search ends if the point moves less
 constexpr int kMostMoves = 24;
 constexpr int kHoldIterations = 30, kCloseIterations = 100;
 
-// Everything that the user states about positions is a place to start from, not one to keep. Belts are as long as their way.
+// All stated positions are only starting points. Belts have the length of their path.
 Model free_to_move(Model model) {
   for (Joint& joint : model.joints) joint.geometry.erase("stretch");
   for (Body& body : model.bodies) {
     body.hold = {false, false, false};
-    body.position = Vec2{0, 0};  // stated: all bodies resist alike
+    body.position = Vec2{0, 0};  // stated, so that all bodies resist equally
     body.angle = 0;
   }
   return model;
 }
 
-// A complete system, and positions that close it as far as they can.
+// A complete system, and positions that close it as far as possible.
 struct Closed {
   System system;
   Vecs q;
@@ -90,7 +90,7 @@ class KinematicDrag::Linkage {
  private:
   Linkage(const Model& stated, const Model& free) : Linkage(close_from_guess(stated, free), free) {}
   Linkage(Closed closed, const Model& free) : model_(free), own_(std::move(closed.system)), q_(std::move(closed.q)) {
-    for (const JointData& joint : own_.joints) open_.push_back(joint.servo >= 0);  // motors let go
+    for (const JointData& joint : own_.joints) open_.push_back(joint.servo >= 0);  // motors are released
     open_.push_back(true);
     const double stiffest = largest_stiffness(own_);
     hold_ = mouse_spring("hold", 0, {0, 0}, stiffest > 0 ? kSoft * stiffest : 1);
@@ -104,7 +104,8 @@ class KinematicDrag::Linkage {
     return std::none_of(own_.joints.begin(), own_.joints.end(), [body](const JointData& joint) { return joint.at.a == body || joint.at.b == body; });
   }
 
-  // Towards the target in moves short enough that the linkage does not turn over, as long as they bring the point nearer.
+  // Moves towards the target in steps short enough that the linkage does not switch branches, as long as they bring the
+  // point nearer.
   void follow(const Hold& hold) {
     if (hold.body < 0 || hold.body >= own_.n_bodies()) return;
     Placement& at = hold_.at;
@@ -154,9 +155,9 @@ class KinematicDrag::Linkage {
 
   Model model_;
   const System own_;  // without the hold
-  JointData hold_;    // a pin between the world and whatever body is held
-  System system_;     // with it, the last joint
-  Vecs q_, best_;     // best_: the last poses that closed
+  JointData hold_;    // a pin between the world and the held body
+  System system_;     // with the hold as its last joint
+  Vecs q_, best_;     // best_: the last poses that closed the joints
   std::vector<bool> open_;
   std::vector<double> gaps_;
   std::vector<S::Motion> m_;

@@ -22,11 +22,11 @@ using S = Planar;
 
 constexpr double kTolerance = 1e-4;
 constexpr double kFirstStep = 1e-4;       // [s]
-constexpr double kStretch = 1.01;         // of what is left of a frame
-constexpr double kPullRate = 9;           // natural frequency of the mechanism on the pull [rad/s]
-constexpr double kSoftest = 1e-3;         // of the stiffest joint: the stiffest pull that is chosen
-constexpr double kPullDamping = 0.7;      // of critical
-constexpr std::size_t kMostJoints = 120;  // whose masses with closed joints are asked for
+constexpr double kStretch = 1.01;         // length of a second attempt, as a multiple of the rest of the frame
+constexpr double kPullRate = 9;           // natural frequency of the mechanism on the pull's spring [rad/s]
+constexpr double kSoftest = 1e-3;         // upper limit on the pull's stiffness by default, as a fraction of that of the stiffest joint
+constexpr double kPullDamping = 0.7;      // as a fraction of critical damping
+constexpr std::size_t kMostJoints = 120;  // upper limit for finding effective masses with closed joints
 
 Model as_live(Model model) {
   if (model.bodies.empty()) throw std::invalid_argument("the model has no bodies that could move");
@@ -95,9 +95,9 @@ class LiveMotion::Motion {
   const System& own() const { return start_.system; }
   const System& system() const { return pulled_ ? *pulled_ : own(); }
 
-  // No step: the state stays, and another one is tried from it when asked again. A kink of a force just at the end of the frame
-  // can be in the way: then the frame ends a little later. A blade that is bent until it snaps has nothing that leads on at its speed: it goes on from rest,
-  // and the kinetic energy that it had counts as lost.
+  // If no step succeeds the state stays, and the next call tries again from it. A force may have a kink just at the end of the frame: the frame then ends a
+  // little later. If a blade snaps through, there may be no continuation at its speed: the motion then continues from rest, and its kinetic energy counts as
+  // lost.
   bool step(double end) {
     if (try_step(end)) return true;
     const State before = state_;
@@ -143,7 +143,7 @@ class LiveMotion::Motion {
     return true;
   }
 
-  // From the state as it is, with whatever pulls now.
+  // Starts from the present state, with the present pull.
   void restart(double first_step) {
     balance_start(system(), state_);
     stepper_ = make_stepper(system(), {Equations::kNewtonian, "radau", 3}, kTolerance);
@@ -151,8 +151,8 @@ class LiveMotion::Motion {
     changed_ = false;
   }
 
-  // The pull is three joints behind the model's own: a spring along x and one along y, each a servo whose target moves with
-  // constant speed during a frame, so that no force jumps when the hand has moved on; and a damper against the world.
+  // The pull consists of three joints after the model's own: a spring along x and one along y, each a servo whose target
+  // moves with constant speed during a frame, so that no force jumps when the hand moves; and a damper to the world.
   enum { kAlongX, kAlongY, kDamper, kPullJoints };
 
   void hold(const Pull& pull) {
@@ -182,7 +182,7 @@ class LiveMotion::Motion {
     take_pull_joints();
   }
 
-  // From where the targets are now to where the hand is, within dt.
+  // Moves the targets from their present positions to the hand within dt.
   void lead(double dt) {
     bool moved = false;
     for (int i = 0; i < kDamper; ++i) {
@@ -196,7 +196,7 @@ class LiveMotion::Motion {
     if (moved) take_pull_joints();
   }
 
-  // Another system, which the stepper does not know: the next step starts anew.
+  // The system changes, so the next step needs a new stepper.
   void take_pull_joints() {
     stepper_.reset();
     changed_ = true;
@@ -210,7 +210,7 @@ class LiveMotion::Motion {
     }
   }
 
-  // What a force at the held point has to move, in the direction in which it moves most easily.
+  // The effective mass at the held point, in the direction in which it moves most easily.
   double mass_at(const Pull& pull) const {
     const double alone = own().bodies[pull.body].mass[0];
     double mass = alone;
@@ -229,10 +229,10 @@ class LiveMotion::Motion {
   Model model_;
   const Assembly start_;
   std::vector<JointData> pull_joints_;
-  std::unique_ptr<const System> pulled_;  // with them; none while nothing pulls
+  std::unique_ptr<const System> pulled_;  // the system with them; null if there is no pull
   State state_;
-  std::size_t n_own_ = 0;                 // joints but for the pull
-  double stiffest_ = 1e300;               // of them [N/m]
+  std::size_t n_own_ = 0;                 // joints without the pull
+  double stiffest_ = 1e300;               // largest stiffness of these [N/m]
   std::unique_ptr<Stepper> stepper_;
   std::optional<Pull> pull_;
   bool changed_ = false;

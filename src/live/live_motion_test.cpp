@@ -17,7 +17,7 @@ using sample::body;
 using sample::joint;
 using sample::put_at;
 
-// A block of 2 kg that nothing else touches; it starts with 0.5 m/s upwards.
+// A free block of 2 kg; it starts with 0.5 m/s upwards.
 Model free_block() {
   Model model;
   model.gravity = {0, 0};
@@ -27,7 +27,8 @@ Model free_block() {
   return model;
 }
 
-// The spring's end leads from where it was to the target within the first frame and stays there: x'' = -w^2 (x - u) - 2 z w x', by small steps.
+// The spring's end moves from its initial position to the target within the first frame and stays there: x'' = -w^2 (x - u) - 2 z w x',
+// integrated in small steps.
 double followed(double x, double rate, double from, double to, double w, double z, double frame, double t_end) {
   const int n = 20000;
   const double h = t_end / n;
@@ -51,7 +52,7 @@ TEST(LivePull, FollowsTheHandLikeADampedOscillator) {
       EXPECT_NEAR(live.poses()[0][0], followed(0, 0, 0, 0.3, w, 0.7, frame, i * frame), 1e-4) << i;
       EXPECT_NEAR(live.poses()[0][1], followed(0, 0.5, 0, -0.2, w, 0.7, frame, i * frame), 1e-4) << i;
     }
-    // Released it flies on.
+    // After release it continues to fly.
     live.pull({});
     const PlanarPose before = live.poses()[0], speed = live.velocities()[0];
     ASSERT_TRUE(live.advance(0.1));
@@ -60,7 +61,7 @@ TEST(LivePull, FollowsTheHandLikeADampedOscillator) {
   }
 }
 
-// Held at a corner it turns: the point, not the centre of mass, comes to the hand.
+// Held at a corner it turns: that point, not the centre of mass, moves to the hand.
 TEST(LivePull, HoldsAPointOfTheBody) {
   LiveMotion live(free_block());
   live.pull(Pull{0, {0.1, 0}, {0.4, 0.3}, 200});
@@ -72,7 +73,7 @@ TEST(LivePull, HoldsAPointOfTheBody) {
   EXPECT_NEAR(e.kinetic + e.potential + e.dissipated - e.supplied, 0.5 * 2 * 0.25, 1e-3);
 }
 
-// A rod on its pin is as heavy at its tip as a third of it: it follows with the same 9 rad/s.
+// The effective mass of a rod on its pin, at its tip, is a third of its mass: it follows with the same 9 rad/s.
 TEST(LivePull, FeelsTheMassThatTheJointsLeave) {
   LiveMotion live(sample::pendulum(1e8, 1e4, 0));
   live.pull(Pull{0, {0.5, 0}, {1, 0.01}, 0});
@@ -83,7 +84,7 @@ TEST(LivePull, FeelsTheMassThatTheJointsLeave) {
   }
 }
 
-// What is soft is pulled softly: a thousandth of the stiffest joint at most.
+// Soft mechanisms are pulled softly: with a thousandth of the stiffest joint's stiffness at most.
 TEST(LivePull, IsNoStifferThanTheJointsAllow) {
   Model model = free_block();
   model.ground = {{"O", {0, 0}, 0}};
@@ -111,7 +112,7 @@ TEST(LiveMotionBudget, OneStepIsMadeWhateverTheBudget) {
   EXPECT_EQ(live.time(), now);
 }
 
-// What a motor's servo lags behind is no energy of the joints: it has supplied it.
+// The deflection of a motor's servo is not energy of the joints: the motor has supplied it.
 TEST(LiveMotionEnergies, LeaveTheServoOut) {
   Model model = free_block();
   model.ground = {{"O", {0, 0}, 0}};
@@ -140,19 +141,19 @@ TEST(MouseSpring, HoldsAPointAndNoAngle) {
   EXPECT_EQ(largest_stiffness(build_system(free_block())), 0);
 }
 
-// A rod on a pin: a point of it goes to the hand as far as the pin allows.
+// A rod on a pin: one of its points moves to the hand as far as the pin allows.
 TEST(DragByHand, GoesAsFarAsTheJointsAllow) {
   KinematicDrag drag(sample::pendulum(1e6, 5));
   ASSERT_TRUE(drag.assemble());
   for (const Vec2& target : {Vec2{0.6, 0.8}, Vec2{6, 8}, Vec2{0.3, 0.4}}) {
-    for (int call = 0; call < 5; ++call) ASSERT_TRUE(drag.assemble(KinematicDrag::Hold{0, {0.5, 0}, target}));  // each goes some way
+    for (int call = 0; call < 5; ++call) ASSERT_TRUE(drag.assemble(KinematicDrag::Hold{0, {0.5, 0}, target}));  // each call covers part of the way
     const PlanarPose at = drag.poses()[0];
     EXPECT_NEAR(at[0], 0.3, 1e-5);
     EXPECT_NEAR(at[1], 0.4, 1e-5);
     EXPECT_NEAR(at[2], std::atan2(4, 3), 1e-5);
     EXPECT_LT(drag.gaps()[0], 1e-9);
   }
-  // A body that is not there is not held.
+  // A body that does not exist is not held.
   ASSERT_TRUE(drag.assemble(KinematicDrag::Hold{5, {0, 0}, {-1, 0}}));
   EXPECT_NEAR(drag.poses()[0][0], 0.3, 1e-5);
 }

@@ -44,7 +44,7 @@ double arm_length(const System& system, const std::vector<JointKinematics>& join
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     const Placement& at = joint.at;
-    double deflection = 0;  // arms are seen from the other marker: of a rotor on its pin they are how far that gives way
+    double deflection = 0;  // arms are measured from the other marker: for a rotor on its pin they are just the pin's deflection
     for (int k = 0; k < 2; ++k)
       if (joint.held[k]) deflection = std::max(deflection, std::abs(joint_kinematics[j].gap[k]));
     for (int k = 0; k < 2; ++k)

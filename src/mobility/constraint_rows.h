@@ -16,17 +16,16 @@ struct ConstraintRow {
   Eigen::RowVector3d on_a, on_b;  // d gap / dq of the two bodies
   double gap = 0;                 // [m] or [rad]
   double stiffness = 0, damping = 0;
-  Eigen::RowVector3d stiffness_by, damping_by;  // by all components of the gap: blades and bushings couple them
+  Eigen::RowVector3d stiffness_by, damping_by;  // with respect to all gap components: blades and bushings couple them
 };
 
-/// Rows of all joints, servos last as in the system. A slack rope has none; `reach` is how much longer than slack it
-/// may be read [m].
+/// Rows of all joints, servos last as in the system. A rope that is slack by more than `reach` [m] has none.
 std::vector<ConstraintRow> constraint_rows(const System& system, const std::vector<JointKinematics>& joint_kinematics, double reach);
 
 /// A length of the mechanism: the root mean square of the arms at which its joints act [m].
 double arm_length(const System& system, const std::vector<JointKinematics>& joint_kinematics);
 
-/// "x", "across", "angle": the word for component k of a joint's gap, or of what a servo drives.
+/// "x", "across", "angle": the name of component k of a joint's gap, or of the coordinate that a servo drives.
 std::string component_name(const JointData& joint, int k);
 
 /// Kinematics at q, at rest, t = 0.

@@ -14,10 +14,10 @@ namespace {
 
 using S = Planar;
 
-constexpr int kDenseFreedoms = 450;      // orthogonal factors up to here, sparse ones beyond
+constexpr int kDenseFreedoms = 450;      // orthogonal factors are used up to here, sparse ones beyond
 constexpr int kNearbyFreedoms = 300;     // nearby positions are tried up to here
-constexpr int kSparseFreedoms = 200000;  // no rank beyond
-constexpr double kNearby = 0.05;         // how far off, of the arm's length [-]
+constexpr int kSparseFreedoms = 200000;  // no rank is computed beyond
+constexpr double kNearby = 0.05;         // distance of nearby positions, as a fraction of the arm's length [-]
 
 class MobilityCount {
  public:
@@ -38,7 +38,8 @@ class MobilityCount {
     counts.servos = static_cast<int>(driven_.size() - joints_.size());
     counts.gruebler = counts.freedoms - counts.constraints;
     counts.length = length_;
-    // Positions are not known better than the misfit; a parallelogram with a tolerance is still a parallelogram.
+    // Positions are known no better than the misfit; a parallelogram with a manufacturing error is still a
+    // parallelogram.
     counts.rank_tolerance = std::clamp(10 * misfit_, 1e-8, 1e-3);
     if (counts.freedoms > kSparseFreedoms || counts.constraints > kSparseFreedoms) {
       counts.remark = "too large to compute the rank; only Gruebler's count is known";
@@ -55,7 +56,7 @@ class MobilityCount {
   }
 
  private:
-  // The largest gap, of the arm's length or as an angle.
+  // The largest gap, as a fraction of the arm's length or as an angle.
   double misfit(const std::vector<ConstraintRow>& rows) const {
     double worst = 0;
     for (const ConstraintRow& row : rows)
@@ -74,7 +75,7 @@ class MobilityCount {
       counts.remark = "the factorisation failed";
       return;
     }
-    // The pivots' own limit is coarser: squares are taken.
+    // The pivots' own limit is coarser, since they are squares.
     counts.rank_tolerance = std::max(counts.rank_tolerance, 1e-4);
     if (counts.servos > 0) counts.mobility_driven = sparse_rank(driven_, system_, length_, counts.rank_tolerance).rank;
     counts.mobility_driven = counts.freedoms - counts.mobility_driven;
@@ -95,7 +96,7 @@ class MobilityCount {
     if (counts.freedoms <= kNearbyFreedoms) look_around(here);
   }
 
-  // Ranks at assembled positions a little way off: a rank that grows there says that this position is singular.
+  // Ranks at nearby assembled positions: a higher rank there means that this position is singular.
   void look_around(const DenseRank& here) {
     std::mt19937_64 random(20260);
     const int tries = out_.counts.freedoms <= 60 ? 3 : 1;
@@ -112,7 +113,7 @@ class MobilityCount {
     }
   }
 
-  // The rows that count here, read at q.
+  // The rows of this position, evaluated at q.
   std::vector<ConstraintRow> joint_rows(const Vecs& q) const {
     const auto joint_kinematics = kinematics_at_rest(system_, q);
     std::vector<ConstraintRow> rows = joints_;
@@ -137,7 +138,7 @@ class MobilityCount {
     for (double& x : direction) x = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
     direction = here.free_part(direction);
     const double size = direction.cwiseAbs().maxCoeff();
-    if (size < 1e-6) return false;  // no free direction: nothing near
+    if (size < 1e-6) return false;  // no free direction, so no nearby position
     move(direction * (kNearby * length_ / size), q);
     for (int iteration = 0; iteration < 20; ++iteration) {
       const auto rows = joint_rows(q);

@@ -14,7 +14,7 @@ struct MobilityCheck {
   Vecs regular;  // an assembled position of the highest rank found
 };
 
-/// `q`: assembled positions, the joints as little strained as they can be.
+/// `q`: assembled positions, with the joints strained as little as possible.
 MobilityCheck check_mobility(const System& system, const Vecs& q);
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// Ranks and redundant constraints of mechanisms whose count is known by hand.
+// Ranks and redundant constraints of mechanisms that can be counted by hand.
 #include "mobility/mobility.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(Mobility, OfAFourBar) {
   EXPECT_EQ(check.counts.method, "pivoted QR");
 }
 
-// With its crank held by a motor it is a structure; the motor is no joint.
+// With its crank held by a motor it is a structure; the motor does not count as a joint.
 TEST(Mobility, AMotorHoldsOneFreedom) {
   Model model = sample::four_bar(1e8, 0);
   model.motors = {sample::motor("drive", "O2", MotorKind::kSpeed, sample::expression("10"))};
@@ -107,7 +107,7 @@ TEST(Mobility, EveryCrankBeyondTheSecondIsRedundant) {
   }
 }
 
-// What a pin gives way under the weight of a rotor is no arm.
+// The deflection of a pin under a rotor's weight does not count as an arm.
 TEST(Mobility, DeflectionsAreNoLengthOfTheMechanism) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
@@ -120,7 +120,7 @@ TEST(Mobility, DeflectionsAreNoLengthOfTheMechanism) {
   EXPECT_NEAR(counted(model).length, 0.03, 1e-6);
 }
 
-// All bars on one line: the rank is one less there than anywhere near.
+// All bars on one line: the rank is one lower than anywhere nearby.
 TEST(Mobility, AFlatParallelogramIsSingular) {
   const Model model = parallel_cranks(2, 0);
   const MobilityCheck check = check_mobility(build_system(model), stated(model));
@@ -133,19 +133,19 @@ TEST(Mobility, AFlatParallelogramIsSingular) {
   EXPECT_FALSE(check_mobility(build_system(model), check.regular).counts.singular_position());
 }
 
-// Positions that are off by 1e-6 m tell ranks apart no finer than that.
+// Positions in error by 1e-6 m determine the rank no more finely than that.
 TEST(Mobility, AMisfitCoarsensTheRank) {
   Model model = parallel_cranks(3, 1);
   (*model.bodies[0].position)[1] += 1e-6;
   const MobilityCheck check = check_mobility(build_system(model), stated(model));
-  EXPECT_NEAR(check.counts.rank_tolerance, 1e-5 * std::sin(1.0) / check.counts.length, 1e-9);  // a tenfold of the larger component in the cranks' axes
+  EXPECT_NEAR(check.counts.rank_tolerance, 1e-5 * std::sin(1.0) / check.counts.length, 1e-9);  // ten times the larger component in the cranks' axes
   EXPECT_EQ(check.counts.redundant, 1);
   (*model.bodies[0].position)[1] += 1;
   EXPECT_EQ(check_mobility(build_system(model), stated(model)).counts.rank_tolerance, 1e-3);
   EXPECT_EQ(check_mobility(build_system(parallel_cranks(3, 1)), stated(parallel_cranks(3, 1))).counts.rank_tolerance, 1e-8);
 }
 
-// Both ways to a rank see the same rows; the dependencies of the sparse one name the same components.
+// Both methods for the rank use the same rows; the dependencies of the sparse one name the same components.
 TEST(Rank, SparseAndDenseAgree) {
   for (int n = 2; n < 6; ++n) {
     const Counted c = counted(parallel_cranks(n, 1));
@@ -189,7 +189,7 @@ TEST(Rank, TheFirstHundredDependenciesAreListed) {
   EXPECT_EQ(check.counts.mobility, 0);
 }
 
-// A chain of 300 rods: too many for orthogonal factors. One of 5000: for any.
+// A chain of 300 rods is too large for orthogonal factors, one of 5000 for any.
 TEST(Mobility, LargeOnesAreCountedAnotherWay) {
   const auto chain = [](int n) {
     Model model;
@@ -210,7 +210,7 @@ TEST(Mobility, LargeOnesAreCountedAnotherWay) {
   EXPECT_EQ(counts.rank_nearby, -1);
 }
 
-// The second body is 0.2 m right of and 0.1 m above where its pin is: the shortest way back.
+// The second body is 0.2 m to the right of its pin and 0.1 m above it: the shortest way back.
 TEST(Rank, ClosingMotionIsTheShortest) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
@@ -218,7 +218,7 @@ TEST(Rank, ClosingMotionIsTheShortest) {
   put_at(model.bodies[0], 0.2, 0.1, 0);
   model.joints = {joint("pin", "revolute", {"ground", "O"}, {"ball", "O"}, 1e8, 0)};
   const Counted c = counted(model);
-  EXPECT_EQ(c.length, 1);  // without an arm
+  EXPECT_EQ(c.length, 1);  // there is no arm
   const DenseRank rank(c.rows, c.system, c.length, 1e-8);
   EXPECT_EQ(rank.rank(), 2);
   const Eigen::VectorXd back = rank.closing_motion();
@@ -234,7 +234,7 @@ TEST(Rank, ClosingMotionIsTheShortest) {
   EXPECT_EQ(rows, (std::vector<int>{0, 1}));
 }
 
-// The root mean square of the arms: of a pin at 3 m along x and one at 4 m along y from the centre of mass, each of which has one arm.
+// The root mean square of the arms of two pins, 3 m along x and 4 m along y from the centre of mass. Each pin has one arm.
 TEST(ConstraintRows, ArmsAreAveragedBySquares) {
   Model model;
   model.ground = {{"A", {3, 0}, 0}, {"B", {0, 4}, 0}};

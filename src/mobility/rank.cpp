@@ -77,9 +77,9 @@ Eigen::VectorXd DenseRank::closing_motion() const {
 }
 
 SparseRank sparse_rank(const std::vector<ConstraintRow>& rows, const System& system, double length, double tolerance) {
-  constexpr double kShift = 1e-11;            // lifts the pivots of dependent rows clear of rounding
-  constexpr double kSmallestPivot = 1e-8;     // well above what the shift makes of a dependent row
-  constexpr double kPartOfDependency = 1e-3;  // smaller coefficients are rounding over the shift
+  constexpr double kShift = 1e-11;            // lifts the pivots of dependent rows clear of roundoff
+  constexpr double kSmallestPivot = 1e-8;     // well above the pivot that the shift gives a dependent row
+  constexpr double kPartOfDependency = 1e-3;  // smaller coefficients are roundoff divided by the shift
   constexpr int kMaxListed = 100;
   SparseRank out;
   const int n_rows = static_cast<int>(rows.size());

@@ -1,7 +1,7 @@
-// The rank of the constraint Jacobian, what its rows say twice, and which way the mechanism can still go.
+// The rank of the constraint Jacobian, the dependencies of its rows, and the directions in which the mechanism is free.
 //
-// Columns are scaled so that an angle counts as the path of a typical arm (angle times `length`), rows to unit norm. A
-// pivot below `tolerance` times the largest counts as zero.
+// Columns are scaled so that an angle counts as the displacement at a typical arm (angle times `length`), rows to unit
+// norm. A pivot below `tolerance` times the largest counts as zero.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace pintle {
 
-/// By orthogonal factors, G = left triangle right' with the pivots of a QR decomposition whose columns are pivoted: exact about shares and directions,
-/// cubic in the size. Pivots are next to the singular values.
+/// By orthogonal factors, G = left triangle right' with the pivots of a column-pivoted QR decomposition: shares and directions are exact, the cost is
+/// cubic in the size. The pivots are close to the singular values.
 class DenseRank {
  public:
   DenseRank(const std::vector<ConstraintRow>& rows, const System& system, double length, double tolerance);
@@ -30,7 +30,7 @@ class DenseRank {
   Eigen::VectorXd closing_motion() const;
 
  private:
-  Eigen::MatrixXd left_, triangle_, right_;  // of the part that counts
+  Eigen::MatrixXd left_, triangle_, right_;  // of the part above the tolerance
   Eigen::VectorXd pivots_, gaps_;
   Eigen::VectorXi order_;                    // of the rows, the most independent ones first
   int n_rows_ = 0, rank_ = 0;
@@ -39,7 +39,7 @@ class DenseRank {
 /// By the pivots of G G' (L D L', sparse): for large mechanisms. -1: the factorisation failed.
 struct SparseRank {
   int rank = 0;
-  std::vector<std::vector<int>> dependencies;  // groups of rows that are bound by one dependency each; the first 100
+  std::vector<std::vector<int>> dependencies;  // groups of rows, one for each dependency; the first 100
 };
 SparseRank sparse_rank(const std::vector<ConstraintRow>& rows, const System& system, double length, double tolerance);
 

@@ -39,7 +39,7 @@ void sort_members(CheckRedundancy& group) {
 std::vector<CheckRedundancy> redundancies(const System& system, const std::vector<ConstraintRow>& rows,
                                           const DenseRank& rank) {
   constexpr double kCoupled = 1e-6,
-                   kSharing = 1e-5;  // the projector's entries are true to about rounding / smallest kept
+                   kSharing = 1e-5;  // the projector's entries are accurate to about roundoff / smallest kept pivot
   std::vector<CheckRedundancy> out;
   const int n = static_cast<int>(rows.size());
   if (n == rank.rank()) return out;
@@ -69,7 +69,7 @@ std::vector<CheckRedundancy> redundancies(const System& system, const std::vecto
   for (const auto& dependency : rank.dependencies)
     for (const int i : dependency) groups.join(i, dependency.front());
   std::map<int, CheckRedundancy> by_root;
-  std::set<std::pair<int, int>> taken;  // rows stand in several dependencies of their group
+  std::set<std::pair<int, int>> taken;  // a row may be in several dependencies of its group
   for (const auto& dependency : rank.dependencies) {
     CheckRedundancy& group = by_root[groups.find(dependency.front())];
     group.degree = group.members.empty() ? 1 : group.degree + 1;

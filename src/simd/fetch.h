@@ -1,5 +1,5 @@
-// Explicit prefetching. A step walks a dozen arrays at once, forward and backward, which hardware prefetchers do not
-// predict; without this, large mechanisms wait for memory half of the time.
+// Explicit prefetching. A step traverses a dozen arrays at once, forward and backward, which hardware prefetchers do
+// not predict; without this, large mechanisms wait for memory half of the time.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace pintle {
 
-/// Bodies that do not fit into the second cache: of mechanisms with more, what comes soon is asked for.
+/// Number of bodies that no longer fit into the second-level cache: mechanisms with more use prefetching.
 constexpr std::size_t kLargeMechanism = 1000;
 
-/// Entries [i, i + n) of x, as far as there are any, will be read or written soon.
+/// Prefetches entries [i, i + n) of x, if they exist, which will be read or written soon.
 template <class T>
 PINTLE_LANES void fetch(const std::vector<T>& x, std::size_t i, std::size_t n = 1) {
   constexpr std::size_t kLine = 64;

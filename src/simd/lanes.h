@@ -1,15 +1,16 @@
-// N numbers that go through the same arithmetic in one machine register: one per stage of an implicit step, one per part of
-// its diagonal frame, or one per variant of a mechanism. Registers narrower than that are used several times; the bits are the same.
+// N numbers that go through the same arithmetic in one machine register: one per stage of an implicit step, one per part of its
+// diagonal frame, or one per variant of a mechanism. Narrower registers are used several times; the bits of the results are the
+// same.
 #pragma once
 
 #include <cmath>
 
-// What is made of lanes must be inlined into the function that has the wide registers.
+// Code that uses lanes must be inlined into the function compiled for wide registers.
 #define PINTLE_LANES [[gnu::always_inline]] inline
 
 namespace pintle {
 
-/// As many numbers as a register holds that has room for N, and as many integers.
+/// The register type with room for N numbers, and that for as many integers.
 template <int N> struct Registers;
 template <> struct Registers<1> {
   typedef double Reals __attribute__((vector_size(16)));
@@ -32,7 +33,7 @@ template <int N>
 struct Lanes {
   using Register = typename Registers<N>::Reals;
   static constexpr int kWidth = sizeof(Register) / sizeof(double);
-  alignas(sizeof(Register)) Register v;  // as wide registers want it, also where they are not used
+  alignas(sizeof(Register)) Register v;  // as wide registers require, even where they are not used
 
   Lanes() = default;
   PINTLE_LANES Lanes(const Register& x) : v(x) {}
@@ -84,7 +85,7 @@ template <int N>
 PINTLE_LANES Lanes<N> smaller(const Lanes<N>& a, const Lanes<N>& b) {
   return {b.v < a.v ? b.v : a.v};
 }
-/// Where a is larger than b, x; elsewhere y.
+/// x where a is larger than b; elsewhere y.
 template <int N>
 PINTLE_LANES Lanes<N> where_larger(const Lanes<N>& a, const Lanes<N>& b, const Lanes<N>& x, const Lanes<N>& y) {
   return {a.v > b.v ? x.v : y.v};
@@ -104,7 +105,7 @@ PINTLE_LANES void transpose(Lanes<4> (&rows)[4]) {
   rows[3].v = __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7);
 }
 
-/// The larger of the sizes, lane by lane.
+/// The larger of a and the magnitude of b, lane by lane.
 template <int N>
 PINTLE_LANES Lanes<N> larger_size(const Lanes<N>& a, const Lanes<N>& b) {
   const auto size = b.v < -b.v ? -b.v : b.v;
@@ -112,8 +113,8 @@ PINTLE_LANES Lanes<N> larger_size(const Lanes<N>& a, const Lanes<N>& b) {
 }
 
 /// Sine and cosine, to 1.2e-16, of angles up to kLargestAngle. The angle is reduced to an eighth of a turn either side of zero by
-/// subtracting quarters in two parts, of which the first has 33 bits (Cody and Waite, Software Manual for the Elementary
-/// Functions, chapter 8); there the polynomials of fdlibm's kernel functions.
+/// subtracting quarter turns in two parts, the first of which has 33 bits (Cody and Waite, Software Manual for the Elementary
+/// Functions, chapter 8); the polynomials there are those of fdlibm's kernel functions.
 constexpr double kLargestAngle = 1e5;  // [rad]
 
 template <int N>
@@ -121,7 +122,7 @@ PINTLE_LANES void sine_and_cosine_unchecked(const Lanes<N>& angle, Lanes<N>& sin
   using Register = typename Lanes<N>::Register;
   using Bits = typename Registers<N>::Bits;
   const Register x = angle.v;
-  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: what is added to it loses its fraction
+  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: a number added to it loses its fraction
   constexpr double kQuarter = 1.57079632673412561417e+00, kRest = 6.07710050650619224932e-11;
   const Register shifted = x * 6.36619772367581382433e-01 + kRound, quarters = shifted - kRound;
   const Bits n = (Bits)shifted;
@@ -148,7 +149,7 @@ PINTLE_LANES bool any_beyond_largest_angle(const Lanes<N>& sizes) {
   return any;
 }
 
-/// The same of any angle: the standard library's for large ones.
+/// The same for any angle: the standard library's functions are used for large ones.
 template <int N>
 PINTLE_LANES void sine_and_cosine(const Lanes<N>& angle, Lanes<N>& sine, Lanes<N>& cosine) {
   if (!any_beyond_largest_angle(sizes(angle))) {
@@ -161,7 +162,7 @@ PINTLE_LANES void sine_and_cosine(const Lanes<N>& angle, Lanes<N>& sine, Lanes<N
   }
 }
 
-/// A matrix by its columns.
+/// A matrix stored by columns.
 template <int N>
 struct LaneMatrix {
   Lanes<N> column[N];

@@ -1,4 +1,4 @@
-// Lanes against numbers one at a time, their matrices against Eigen's, sine and cosine against the standard library's.
+// Lanes against single numbers, their matrices against Eigen's, sine and cosine against the standard library's.
 #include "simd/lanes.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class AnyLanes : public testing::Test {
     for (int i = 0; i < N; ++i) x.set(i, random_.of_any_size(1e-3, 1e3));
     return x;
   }
-  // Lane by lane, and in what of the register belongs to no lane.
+  // In every lane, and in the unused part of the register.
   template <class F>
   static void expect_lanes(const L& found, F&& expected) {
     for (int i = 0; i < N; ++i) EXPECT_EQ(found[i], expected(i)) << i;
@@ -96,7 +96,7 @@ PINTLE_WIDE void use_wide(const Lanes<N>& a, const Lanes<N>& b, Four<N>& out) {
   use(a, b, out);
 }
 
-// Whatever registers there are, the bits are the same.
+// With any registers the bits are the same.
 TYPED_TEST(AnyLanes, WideRegistersMakeNoDifference) {
   if (!has_wide_registers()) GTEST_SKIP() << "this processor has none";
   for (int again = 0; again < 1000; ++again) {
@@ -149,7 +149,7 @@ TYPED_TEST(AnyLanes, SineAndCosineReachEveryLane) {
   }
 }
 
-// The larger of the errors of sine and cosine at x, which stands beside another angle in any lane.
+// The larger of the errors of sine and cosine at x, in any lane, with another angle in the others.
 double error_at(double x, double beside) {
   double worst = 0;
   for (const int lane : {0, 1, 2}) {
@@ -167,7 +167,7 @@ double worst_error(const std::vector<double>& angles) {
   return worst;
 }
 
-// Measured: one unit in the last place between 1/2 and 1, 1.1e-16; against exact values 1.21e-16.
+// Measured: one unit in the last place between 1/2 and 1, 1.1e-16; compared with exact values 1.21e-16.
 constexpr double kError = 2.3e-16, kExactError = std::numeric_limits<long double>::digits > 53 ? 1.25e-16 : kError;
 
 TEST(SineAndCosine, AreThoseOfTheStandardLibrary) {
@@ -179,7 +179,7 @@ TEST(SineAndCosine, AreThoseOfTheStandardLibrary) {
   }
 }
 
-// The last half bit, where the standard library has a number with more digits.
+// The last half bit, if the standard library has a type with more digits.
 TEST(SineAndCosine, AreExactToAUnitInTheLastPlace) {
   Random random(26);
   double worst = 0;
@@ -194,7 +194,7 @@ TEST(SineAndCosine, AreExactToAUnitInTheLastPlace) {
   EXPECT_LE(worst, kExactError);
 }
 
-// Where the quarter changes, and where sine or cosine vanish and the reduction cancels every digit.
+// Where the quarter turn changes, and where sine or cosine vanish and the reduction cancels every digit.
 TEST(SineAndCosine, HoldAroundMultiplesOfAnEighthTurn) {
   Random random(23);
   constexpr double kEighth = std::numbers::pi / 4, kInfinity = std::numeric_limits<double>::infinity();
@@ -218,7 +218,7 @@ TEST(SineAndCosine, HoldAtZeroAndAtTinyAngles) {
     sine_and_cosine(Lanes<3>::of({x, -x, x}), sine, cosine);
     for (const int lane : {0, 1}) {
       const double angle = lane == 0 ? x : -x;
-      EXPECT_LE(std::abs(sine[lane] - std::sin(angle)), 2.3e-16 * std::abs(angle)) << angle;  // relative here
+      EXPECT_LE(std::abs(sine[lane] - std::sin(angle)), 2.3e-16 * std::abs(angle)) << angle;  // a relative error here
       EXPECT_LE(std::abs(cosine[lane] - std::cos(angle)), kError) << angle;
     }
   }
@@ -230,7 +230,7 @@ TEST(SineAndCosine, AngleThatIsTooLargeIsLeftToTheStandardLibrary) {
   for (int i = 0; i < 1000; ++i) angles.push_back(random.of_any_size(kLargestAngle, 1e18));
   for (const double x : angles) {
     EXPECT_EQ(error_at(x, 0.4), 0) << x;
-    EXPECT_LE(error_at(0.4, x), kError) << x;  // and does not spoil the one beside it
+    EXPECT_LE(error_at(0.4, x), kError) << x;  // and does not affect its neighbour
   }
   EXPECT_LE(error_at(std::nextafter(kLargestAngle, 0), 0.4), kError);
 }

@@ -25,7 +25,7 @@ namespace {
 
 using S = Planar;
 
-// Whether what starts free, as a slack rope, is further than rounding from where it would act.
+// Whether a joint that starts free, such as a slack rope, is further than roundoff from where it would act.
 bool stands_apart(const JointData& joint, const S::Vec& gap, double size) {
   const S::Vec still = S::Vec::Zero();
   for (int k = 0; k < S::kDof; ++k)
@@ -34,8 +34,8 @@ bool stands_apart(const JointData& joint, const S::Vec& gap, double size) {
   return true;
 }
 
-// Velocities that leave every gap of what is not apart as it is (servos: that follow their targets), nearest to the stated ones in the mass
-// norm; what is not stated follows. Multiplier iteration, theory/assembly Eqs. (2.1)-(2.3).
+// The velocities nearest to the stated ones, in the mass norm, that keep every gap of the joints that are not apart constant (servos follow
+// their targets). Unstated velocities follow. Multiplier iteration, theory/assembly Eqs. (2.1)-(2.3).
 void assemble_velocities(const Model& model, const System& system, const Vecs& q, Vecs& v) {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
@@ -87,7 +87,7 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   v = x;
 }
 
-// What a joint lacks to being closed [m], [rad]; 0 in components that it does not hold.
+// How far a joint is from being closed [m], [rad]; 0 in components that it does not hold.
 std::array<double, 2> misfit(const JointData& joint, const JointKinematics& r) {
   const S::Vec stiff = joint.law.engaged_stiffness();
   S::Vec gap = gap_to_close(joint, r);
@@ -105,7 +105,7 @@ std::vector<std::array<double, 2>> misfits(const System& system, const Vecs& q) 
 
 bool is_broken(const std::array<double, 2>& misfit, double size) { return misfit[0] > 2e-3 * size || misfit[1] > 0.02; }
 
-// Whether all joints but the open ones are closed, as far as these misfits say.
+// Whether all joints except the open ones are closed, judged by these misfits.
 bool all_closed(const std::vector<std::array<double, 2>>& left, const std::vector<bool>& open, double size) {
   for (std::size_t j = 0; j < left.size(); ++j)
     if (!open[j] && is_broken(left[j], size)) return false;
@@ -116,8 +116,8 @@ std::string length_or_angle(const std::array<double, 2>& misfit, double size) {
   return misfit[0] > 2e-3 * size ? fmt::format("{:.4g} m", misfit[0]) : fmt::format("{:.4g} rad", misfit[1]);
 }
 
-// A loop that does not close leaves its misfit where joints are soft, and that may be in another loop. Those joints without any of which all others
-// close are that loop.
+// A loop that does not close leaves its misfit where joints are soft, which may be in another loop. The loop consists of the joints that, opened
+// one at a time, let all others close.
 std::string loop_that_lacks(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open) {
   const double size = mechanism_size(system, q);
   std::string names, lacks;
@@ -135,7 +135,7 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
   return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open all others close, and it lacks about {}", names, lacks);
 }
 
-// Takes all bodies out of `hold`; the names of the coordinates that were in it.
+// Takes all bodies out of `hold`. Returns the names of the coordinates that were in it.
 std::vector<std::string> let_go(Model& model) {
   std::vector<std::string> held;
   for (Body& body : model.bodies)
@@ -146,7 +146,8 @@ std::vector<std::string> let_go(Model& model) {
 
 bool is_closed(const std::array<double, 2>& misfit, double size) { return misfit[0] <= kAsStated * size && misfit[1] <= kAsStated; }
 
-// Held coordinates that are a little off, as a rounded angle is, leave joints open by as little. They move to where all joints close; false if that is nowhere.
+// Held coordinates that are slightly off, such as a rounded angle, leave joints open by as little. Moves them to where all joints close; false if there is no
+// such position.
 bool close_beside_holds(const Model& model, const System& system, const std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
   Model free = model;
   if (let_go(free).empty()) return false;
@@ -161,7 +162,7 @@ bool close_beside_holds(const Model& model, const System& system, const std::vec
   return true;
 }
 
-// The joints that bodies only touch in, beside those that are open: they may stand apart.
+// The joints in which bodies only touch, without those that are open: these bodies may be apart.
 std::vector<std::size_t> contacts_of(const System& system, const std::vector<bool>& open) {
   std::vector<std::size_t> out;
   for (std::size_t j = 0; j < open.size(); ++j)
@@ -183,7 +184,7 @@ bool all_within_stops(const System& system, const Vecs& q) {
   return true;
 }
 
-// Whether without these contacts everything else closes, with the bodies not inside each other; then q is where it does.
+// Whether everything else closes without these contacts, with no bodies inside each other; q is then the position where it does.
 bool closes_without(const Model& model, const System& system, const std::vector<bool>& open, const std::vector<std::size_t>& contacts, Vecs& q) {
   const std::vector<bool> opened = with_opened(open, contacts);
   Vecs trial = q;
@@ -197,14 +198,14 @@ bool closes_without(const Model& model, const System& system, const std::vector<
   return true;
 }
 
-// The contacts without which everything else closes: an escape wheel touches one of its pallets at a time.
+// The contacts without which everything else closes, as an escape wheel touches one of its pallets at a time.
 std::string contacts_that_may_stand_apart(const Model& model, const System& system, Vecs q, const std::vector<bool>& open) {
   const std::vector<std::size_t> contacts = contacts_of(system, open);
   return contacts.empty() || !closes_without(model, system, open, contacts, q) ? "" : names_of_joints(system, {contacts.begin(), contacts.end()});
 }
 
-// A contact that closes only with a joint beyond its stop, as that of a valve with lash does, starts apart: one of them, or all, and where the bodies are
-// stated to be.
+// A contact that closes only with a joint beyond its stop, as that of a valve with lash, starts apart. Each contact is tried alone, then all together,
+// each time from the stated positions.
 void leave_contacts_apart(const Model& model, const System& system, const Vecs& stated, std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
   if (all_within_stops(system, q)) return;
   const std::vector<std::size_t> contacts = contacts_of(system, open);
@@ -221,7 +222,7 @@ void leave_contacts_apart(const Model& model, const System& system, const Vecs& 
   }
 }
 
-// What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
+// What other than lengths keeps the search from closing the joints: held coordinates, motors that ask for another position, pins that the search puts
 // in the middle of their play.
 std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
   if (const std::string apart = contacts_that_may_stand_apart(model, system, q, open); !apart.empty())
@@ -237,7 +238,7 @@ std::string what_to_try(Model model, const System& system, const Vecs& q, const 
   return "Try lengths that close the loop, or angles nearer to the intended position.";
 }
 
-// Joints with play whose bodies do not touch where they have been put, as where what is held says how a sleeve is tilted on its pole.
+// Joints with play whose bodies do not touch in the assembled position, for example where a held angle tilts a sleeve on its pole.
 std::vector<bool> within_play(const System& system, const Vecs& q) {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
@@ -247,18 +248,18 @@ std::vector<bool> within_play(const System& system, const Vecs& q) {
   return out;
 }
 
-// Or what is held gives way by a little, if that closes them.
+// Throws if joints stay open, and notes smaller misfits, unless a small change of the held coordinates removes these.
 void demand_closed(const Model& model, const System& system, Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
   const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
-  constexpr int kMostListed = 20;         // joints that the message names
-  constexpr std::size_t kMostTried = 40;  // joints that are opened in turn, at most
+  constexpr int kMostListed = 20;         // number of joints that the message names
+  constexpr std::size_t kMostTried = 40;  // upper limit on the number of joints that are opened in turn
   std::vector<std::size_t> broken, misfitting;
   const std::vector<bool> loose = within_play(system, q);
   for (std::size_t j = 0; j < left.size(); ++j) {
     if (open[j] || loose[j]) continue;
     if (is_broken(left[j], size)) broken.push_back(j);
-    else if (!is_closed(left[j], size) && !has_play(system.joints[j])) misfitting.push_back(j);  // play takes up what is left
+    else if (!is_closed(left[j], size) && !has_play(system.joints[j])) misfitting.push_back(j);  // play takes up the rest
   }
   const bool of_joints = std::any_of(misfitting.begin(), misfitting.end(), [&](std::size_t j) { return system.joints[j].servo < 0; });
   if (broken.empty() && of_joints && close_beside_holds(model, system, open, q, notes)) return;
@@ -283,7 +284,7 @@ void demand_closed(const Model& model, const System& system, Vecs& q, const std:
   throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + lacking + "\n  " + what_to_try(model, system, q, open, only_motors));
 }
 
-// A coordinate far beyond a stop is a start that was not meant. Angles count turns.
+// A coordinate far beyond a stop is not an intended start. Angles count turns.
 void demand_within_stops(const JointData& joint, double at, const StopBreach& breach, double most) {
   if (!(breach.depth > most)) return;
   const bool turns = breach.component == 2;
@@ -294,16 +295,16 @@ void demand_within_stops(const JointData& joint, double at, const StopBreach& br
                                   breach.upper ? "upper" : "lower", breach.stop / unit, turns ? "deg" : "m", advice));
 }
 
-// A run between discs of which one contains the other, or between crossed ones that overlap, has no length.
+// A belt run has no length if one disc contains the other, or if a crossed belt's discs overlap.
 void demand_reach(const JointData& joint, const Belt& belt, const S::Vec& z) {
   const double apart = std::hypot(z[0], z[1]), least = std::abs(belt.w());
   if (apart > least) return;
   throw AssemblyError(fmt::format("joint {}: its discs are {:.4g} m apart, and the belt has no way between them: that takes more than {:.4g} m.\n  Try smaller radii, other sides, or markers further apart.", joint.name, apart, least));
 }
 
-// Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine.
+// Bodies deep inside each other at a contact are on its wrong side, and its forces would be meaningless.
 void demand_apart(const Model& model, const System& system, const Vecs& q, const std::vector<std::string>& notes) {
-  constexpr double kDeep = 1e-2;  // of the mechanism's size: bodies that are deeper in each other are on the wrong side of a contact
+  constexpr double kDeep = 1e-2;  // as a fraction of the mechanism's size: bodies deeper inside each other are on the wrong side of a contact
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   const Vecs still(q.size(), S::Vec::Zero());
@@ -314,13 +315,13 @@ void demand_apart(const Model& model, const System& system, const Vecs& q, const
     if (const auto breach = joint.law.breach(r[j].gap)) demand_within_stops(joint, r[j].gap[breach->component], *breach, kDeep * (breach->component == 2 ? 1 : size));
     if (const auto belt = belt_of(joint.displacement)) demand_reach(joint, *belt, system.pose(joint.at, m).z);
     const double depth = joint.law.penetration(r[j].gap);
-    if (depth > kDeep * size && model.simulate.start != Start::kSettled)  // where they settle first they push each other apart
+    if (depth > kDeep * size && model.simulate.start != Start::kSettled)  // a settled start pushes them apart first
       throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), its two markers in the other order (the first one carries the edge), a start position apart from it, or start = \"settled\", which lets them push each other apart.{}",
                                       joint.name, depth, notes.empty() ? "" : fmt::format("\n  {}", fmt::join(notes, "\n  "))));
   }
 }
 
-// With everything held that is stated.
+// The model with all stated coordinates held.
 Model held_as_stated(Model model) {
   for (Body& body : model.bodies) {
     if (body.position) body.hold[0] = body.hold[1] = true;
@@ -329,7 +330,7 @@ Model held_as_stated(Model model) {
   return model;
 }
 
-// `system` complete, and the positions q closed, from a guess.
+// Completes `system` and closes the positions q, starting from a guess.
 System assemble_positions(const Model& model, System system, Vecs& q, std::vector<std::string>& notes) {
   std::vector<bool> open(system.joints.size());
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);

@@ -19,11 +19,11 @@ namespace {
 
 using S = Planar;
 
-constexpr double kFarTurned = std::numbers::pi / 6;  // a drawing's angles are read off more closely [rad]
-constexpr double kOtherVelocity = 0.02;              // of the larger of stated and assembled velocity, so that rounded figures are no other ones: from 1e-4 to 0.04 the same of 150 models are told
-constexpr double kManyTurns = 4 * std::numbers::pi;  // angles of the start above it are hardly meant: 15 degrees without their unit are as much [rad]
-constexpr double kMuchLarger = 3;                    // lengths of a law over the mechanism: a thousand where a unit is missing, and a mechanism of one body has hardly a size
-constexpr double kTeethApart = 0.02;                 // of the smaller pitch radius: modified teeth may be cut for as much
+constexpr double kFarTurned = std::numbers::pi / 6;  // angles are read off a drawing more accurately than this [rad]
+constexpr double kOtherVelocity = 0.02;              // as a fraction of the larger of stated and assembled velocity: a smaller change, as from rounded figures, is not noted. From 1e-4 to 0.04 the same ones of 150 models get the note
+constexpr double kManyTurns = 4 * std::numbers::pi;  // starting angles above this are hardly intended: 15 degrees without their unit are more [rad]
+constexpr double kMuchLarger = 3;                    // ratio of a law's length to the mechanism's size above which it is noted: a missing unit makes a thousand, and a mechanism of one body hardly has a size
+constexpr double kTeethApart = 0.02;                 // as a fraction of the smaller pitch radius: profile-shifted teeth may be cut for as much
 
 // The diagonal of the box around all stated centres [m].
 double extent_of_centres(const Model& model, const Vecs& guess) {
@@ -57,7 +57,7 @@ void note_teeth_apart(const JointData& joint, const S::Vec& z, std::vector<std::
                                 opening > 0 ? "are apart" : "overlap", std::abs(opening)));
 }
 
-// Lengths of a law that are larger than the mechanism, as of a pin whose unit is missing. Those that nobody has stated are the defaults.
+// Lengths of a law that are larger than the mechanism, such as of a pin whose unit is missing. Unstated ones are defaults.
 void note_large_lengths(const std::string& joint, const LawChoice& choice, double size, std::vector<std::string>& notes) {
   const LawInfo* law = find_law(choice.word);
   if (law == nullptr) return;
@@ -79,7 +79,7 @@ void note_many_turns(const std::string& what, double angle, std::vector<std::str
   if (std::abs(angle) > many) notes.push_back(fmt::format("{} of {:.4g} rad is {:.3g} turns: without a unit angles are radians", what, angle, angle / (2 * std::numbers::pi)));
 }
 
-// The axis of a marker has no turns to count.
+// Turns of a marker's axis have no meaning.
 void note_turned_axes(const std::string& of, const std::vector<Marker>& markers, std::vector<std::string>& notes) {
   for (const Marker& marker : markers) note_many_turns(of + ": the axis angle of its marker " + marker.name, marker.axis, notes, kTurn);
 }
@@ -112,14 +112,14 @@ void note_changed_velocities(const Model& model, const System& system, const Vec
   const std::string loose = names_of_joints_in_play(system);
   const std::string why = loose.empty() ? "joints or motors ask for it" : fmt::format("joints or motors ask for it, and those with play ({}) start with their parts at rest in each other; start = \"raw\" keeps what is stated", loose);
   const auto differ = [](double change, double before, double after) { return change > kOtherVelocity * std::max(before, after); };
-  constexpr double kNothing = 1e-9;  // of what was stated: rounding, written as 0
+  constexpr double kNothing = 1e-9;  // as a fraction of the stated value: smaller values are roundoff and written as 0
   const auto plain = [](double x, double stated) { return std::abs(x) < kNothing * std::abs(stated) ? 0 : x; };
   double fastest = 0, most_turned = 0;
   for (const S::Vec& velocity : v) {
     fastest = std::max(fastest, velocity.head<2>().norm());
     most_turned = std::max(most_turned, std::abs(velocity[2]));
   }
-  std::vector<std::string> not_at_rest;  // though that is stated
+  std::vector<std::string> not_at_rest;  // though stated to be
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
     if ((body.spin == 0.0 && std::abs(v[i][2]) > kOtherVelocity * most_turned) || (body.velocity == Vec2{} && v[i].head<2>().norm() > kOtherVelocity * fastest)) not_at_rest.push_back(body.name);

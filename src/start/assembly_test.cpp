@@ -1,4 +1,4 @@
-// Assembly: positions from rough guesses, velocities from inconsistent ones, joint forces to start with.
+// Assembly: positions from rough guesses, velocities from inconsistent ones, joint forces at the start.
 #include "start/assembly.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ struct Assembled {
     system().motions(state().q, state().v, m);
     return system().kinematics(j, 0, m);
   }
-  /// The largest distance that a joint leaves open, and the largest rate; revolute joints only.
+  /// The largest gap of any joint, and in opening() its largest rate; revolute joints only.
   double open() const {
     double largest = 0;
     for (int j = 0; j < system().n_joints(); ++j) largest = std::max(largest, kinematics(j).gap.head<2>().norm());
@@ -94,7 +94,7 @@ TEST(Assembly, LeavesAGoodStateAlone) {
   }
 }
 
-// Assembling twice gives the same again.
+// Assembling twice gives the same result.
 TEST(Assembly, IsAtRestInItsOwnResult) {
   Random random(3);
   Model model = four_bar_at();
@@ -111,7 +111,7 @@ TEST(Assembly, KeepsTheBranchOfTheGuess) {
     for (const bool above : {true, false}) {
       Model model = four_bar_at();
       if (!above)
-        for (Body& b : model.bodies) {  // mirrored at the ground line: the other branch, the crank at -60 degrees
+        for (Body& b : model.bodies) {  // mirrored about the ground line: the other branch, with the crank at -60 degrees
           (*b.position)[1] *= -1;
           *b.angle *= -1;
         }
@@ -172,7 +172,7 @@ TEST(Assembly, ALoopThatCannotCloseIsNamed) {
   }
 }
 
-// v = v0 - M^-1 G' (G M^-1 G')^-1 G v0: the velocities that a plastic impact of all joints leaves.
+// v = v0 - M^-1 G' (G M^-1 G')^-1 G v0: the velocities after a plastic impact in all joints.
 TEST(Assembly, InconsistentVelocitiesGoToTheNearestInTheMassNorm) {
   Random random(6);
   for (int i = 0; i < 10; ++i) {
@@ -195,7 +195,7 @@ TEST(Assembly, InconsistentVelocitiesGoToTheNearestInTheMassNorm) {
   }
 }
 
-// The paper's start: the crank turns at 10 rad/s, coupler and follower stand still. The flywheel hardly notices.
+// The paper's start: the crank turns at 10 rad/s, coupler and follower stand still. The flywheel hardly slows down.
 TEST(Assembly, CrankSpeedSurvivesAnInconsistentStart) {
   Model model = four_bar_at();
   for (const int i : {1, 2}) {
@@ -261,7 +261,8 @@ TEST(StartForces, PendulumCarriesAQuarterOfItsWeight) {
   }
 }
 
-// Ideal joints, crank at 60 degrees and 10 rad/s: one-coordinate form, 30 digits, checked against multipliers to 1e-12 N.
+// Ideal joints, crank at 60 degrees and 10 rad/s: from the one-coordinate form with 30 digits, checked against
+// multipliers to 1e-12 N.
 constexpr double kIdeal[4][2] = {{-439.9043451218468, -420.9514120063343},
                                  {-414.9050833784453, -377.64971558446655},
                                  {-135.2791778125028, -68.54711731888109},
@@ -275,7 +276,7 @@ TEST(StartForces, FourBarCarriesTheIdealReactions) {
   }
 }
 
-// M a = Q + G' f with the state's own numbers, and gap'' = G a + the convective term.
+// M a = Q + G' f with the state's own values, and gap'' = G a + the convective term.
 TEST(StartForces, StateIsBalanced) {
   for (const Start start : {Start::kAssembled, Start::kUnloaded, Start::kRaw}) {
     Model model = sample::four_bar(1e8, 3000);
@@ -295,8 +296,8 @@ TEST(StartForces, StateIsBalanced) {
   }
 }
 
-// Started on the joints' slow motion and resolved to the last vibration, the forces stay within 0.05 N of those of ideal
-// joints (of 600 N): nothing rings.
+// Started on the joints' slow motion and with every vibration resolved, the forces (of 600 N) stay within 0.05 N of
+// those of ideal joints: nothing rings.
 TEST(SlowManifold, AStartOnItDoesNotRing) {
   const Model model = sample::four_bar(1e8, 3000);
   Assembled at(model);

@@ -26,18 +26,18 @@ namespace {
 
 using S = Planar;
 
-constexpr double kTolerance = 1e-5;               // of the creep's steps: where it ends does not depend on the way
-constexpr double kAtRest = 1e-11;                 // of the largest force: what is left unbalanced where a body counts as resting, where rounding leaves less
-constexpr int kSwings = 100;                      // steps in which neither what is unbalanced falls by half nor time grows to kLonger: the mechanism swings, or has come as near as rounding lets it
-constexpr double kLonger = 4;                     // times the time of kSwings steps before: steps grow, as where a weight sinks steadily. With 2 and with 8 a post that sticks on its way (test SettledStart) rests there, not where it would without friction; all others rest alike
-constexpr double kThicker = 4;                    // rate of the next fluid over that of one in which the mechanism swings
-constexpr double kFirstStep = 1e-3;               // over the time of the creep
-constexpr double kLongest = 1e6;                  // times that of the creep: a mechanism that still moves then has no position of rest
-constexpr std::uint64_t kMostCreepSteps = 50000;  // of the creep
-constexpr double kUnbalanced = 1e-6;              // of the largest force: what a start in equilibrium leaves unbalanced
-constexpr double kNudge = 1e-6, kLeaves = 1e-3;   // of the mechanism's size: how far it is moved from where it rests, and from where on it has left: the equilibrium was not stable
+constexpr double kTolerance = 1e-5;               // tolerance of the creep's steps: where it ends does not depend on the path
+constexpr double kAtRest = 1e-11;                 // as a fraction of the largest force: a body counts as resting if the unbalanced force is below this, where roundoff permits
+constexpr int kSwings = 100;                      // steps in which neither the unbalanced force halves nor time grows by kLonger: the mechanism then swings, or has come as near as roundoff permits
+constexpr double kLonger = 4;                     // growth of time that counts as progress: steps grow, as where a weight sinks steadily. With 2 and with 8 a post that sticks on its way (test SettledStart) rests there, not where it would without friction; all others rest in the same place
+constexpr double kThicker = 4;                    // ratio of the next fluid's drag rate to that of one in which the mechanism swings
+constexpr double kFirstStep = 1e-3;               // first step, as a fraction of the time constant of the creep
+constexpr double kLongest = 1e6;                  // longest creep, as a multiple of its time constant: a mechanism that still moves then has no position of rest
+constexpr std::uint64_t kMostCreepSteps = 50000;  // upper limit on the number of steps of the creep
+constexpr double kUnbalanced = 1e-6;              // as a fraction of the largest force: limit on the unbalanced force at a start in equilibrium
+constexpr double kNudge = 1e-6, kLeaves = 1e-3;   // as fractions of the mechanism's size: how far it is moved from its equilibrium, and how far away it must end for that equilibrium to count as unstable
 
-// The model as it is at t = 0 and stays: motors hold where they are.
+// The model frozen at t = 0: motors hold their positions.
 Model standing_still(Model model) {
   const auto fix = [](Expression& e) { e = e.substitute("t", 0); };
   for (Joint& joint : model.joints)
@@ -57,7 +57,7 @@ Model standing_still(Model model) {
   return model;
 }
 
-// The model with nothing that rubs.
+// The model without friction.
 Model without_friction(Model model) {
   for (Joint& joint : model.joints) {
     joint.friction = LawChoice{"", {}};
@@ -82,12 +82,12 @@ JointData tied_to_ground(const std::string& name, int body, const State& state, 
   return joint;
 }
 
-// Whether a servo moves the body: it holds it then, and would not carry what a spring beside it carries.
+// Whether a servo moves the body: the servo then holds it, and would not carry what a spring in parallel carries.
 bool has_servo(const System& system, int body) {
   return std::any_of(system.joints.begin(), system.joints.end(), [body](const JointData& joint) { return joint.servo >= 0 && (joint.at.a == body || joint.at.b == body); });
 }
 
-// The system in a fluid that takes `rate` times its momentum from each body per second. What is held is held like the stiffest joint.
+// The system in a fluid that takes `rate` times its momentum from each body per second. Held coordinates are held as stiffly as by the stiffest joint.
 System in_fluid(const Model& model, const System& system, const State& state, double rate) {
   System out = system;
   const double stiffest = largest_stiffness(system), hold = stiffest > 0 ? stiffest : 1e8;
@@ -103,15 +103,15 @@ System in_fluid(const Model& model, const System& system, const State& state, do
   return out;
 }
 
-// A couple counts over the largest radius of gyration.
+// A couple counts as a force at the largest radius of gyration.
 double largest_load(const System& system, const State& state) {
   double largest = std::max(largest_force(state.force), largest_couple<S>(state.force) / system.largest_radius_of_gyration());
   for (const BodyData& body : system.bodies) largest = std::max(largest, body.gravity.head<2>().norm());
   return largest;
 }
 
-// What drives the bodies against the fluid and against their inertia, as a force: a couple counts over the body's radius of gyration. Where a body swings,
-// one of the two vanishes at every turn.
+// The largest force that drives a body against the fluid and against its inertia; a couple counts as a force at the body's radius of gyration. Where a
+// body swings, the two vanish alternately.
 double largest_unrest(const System& system, const State& state, double rate, int& body) {
   double largest = 0;
   for (int i = 0; i < system.n_bodies(); ++i) {
@@ -124,7 +124,7 @@ double largest_unrest(const System& system, const State& state, double rate, int
   return largest;
 }
 
-// 1 over the time in which the loads move the mechanism by its size.
+// The reciprocal of the time in which the loads move the mechanism by its size.
 double rate_of_motion(const System& system, const State& state) {
   double fastest = 0;
   for (int i = 0; i < system.n_bodies(); ++i) {
@@ -134,11 +134,12 @@ double rate_of_motion(const System& system, const State& state) {
   return fastest > 0 ? std::sqrt(fastest / characteristic_length(system, state.q)) : 1;
 }
 
-// Of the joints' forces.
+// Roundoff of the joint forces.
 double rounding_of(const System& system, const State& state) { return kLastBits * largest_stiffness(system) * characteristic_length(system, state.q); }
 
-// The way of a mechanism through a fluid to where it rests. The first fluid lets loads move it by its size in about one time constant; springs that are
-// stiff against these loads make it swing there, with steps that cannot grow. Then the fluid becomes thicker: creeping takes long, but few steps.
+// The path of a mechanism through a fluid to where it rests. In the first fluid the loads move it by its size in about one time constant. Springs that
+// are stiff compared with these loads make it swing there, with steps that cannot grow. The fluid then becomes thicker: the creep takes longer, but few
+// steps.
 class Creep {
  public:
   Creep(const Model& model, const System& system, const State& assembled)
@@ -146,7 +147,7 @@ class Creep {
 
   const System& fluid() const { return fluid_; }
 
-  /// Where it ends. The second time the steps are as exact as the loads ask that are left where it rests; on the way they may have been much larger.
+  /// The state in which it ends. The second creep has steps as accurate as the loads left at rest require; on the way the loads may have been much larger.
   State go(State from) {
     std::uint64_t steps = 0;
     creep_to_rest(from, steps);
@@ -165,8 +166,8 @@ class Creep {
     }
   }
 
-  // As far as steps make what is unbalanced smaller. False where the mechanism swings. Steps that have become long bring back some of the rounding that shorter ones
-  // had left behind: where only that is left, the state with the least.
+  // Continues while steps reduce the unbalanced force. False if the mechanism swings. Long steps bring back some of the roundoff that shorter ones had removed: if
+  // nothing else is left, takes the state with the smallest unbalanced force.
   bool creep(State& state, std::uint64_t& steps) {
     BasicRadauStepper<S> stepper(fluid_, kTolerance);
     state.t = 0;
@@ -211,7 +212,7 @@ class Creep {
 };
 
 struct Move {
-  double way = 0, turn = 0;  // of the bodies, at most [m], [rad]
+  double way = 0, turn = 0;  // largest displacement and rotation of any body [m], [rad]
 };
 Move largest_move(const Vecs& from, const Vecs& to) {
   Move move;
@@ -225,7 +226,7 @@ Move largest_move(const Vecs& from, const Vecs& to) {
 
 std::string in_words(const Move& move) { return fmt::format("{:.3g} m and {:.3g} deg", move.way, move.turn * 360 / kTurn); }
 
-// The given equilibrium if it is stable; otherwise the position of rest that the mechanism reaches from it when it is disturbed.
+// The given equilibrium if it is stable; otherwise the position of rest that the mechanism reaches from it when disturbed.
 State stable_rest(Creep& creep, const State& at_rest, std::vector<std::string>& notes) {
   const double size = characteristic_length(creep.fluid(), at_rest.q);
   State nudged = at_rest;
@@ -245,7 +246,7 @@ struct Unbalanced {
   double size;  // [N]
   std::size_t body;
 };
-// The largest force that accelerates a body, where it is more than rounding.
+// The largest force that accelerates a body, if it exceeds roundoff.
 std::optional<Unbalanced> unbalanced(const Assembly& start) {
   const System& system = start.system;
   const State& state = start.state;
@@ -263,8 +264,8 @@ bool holds_bodies(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.hold[0] || body.hold[1] || body.hold[2]; });
 }
 
-// What is held while the mechanism comes to rest is let go when the run begins. Where surfaces stick they carry then what the hold has carried, as far as they can; what
-// their springs have been bent by on the way says nothing of it.
+// Coordinates held while the mechanism comes to rest are released when the run begins. Sticking surfaces then carry what the hold carried, as far as they can; the
+// deflections that their springs acquired on the way are no guide to it.
 void hold_by_friction(Assembly& start) {
   if (std::none_of(start.system.joints.begin(), start.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) return;
   const Assembly given = start;

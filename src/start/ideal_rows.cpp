@@ -12,7 +12,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kDenseFreedoms = 900;  // coordinates up to which the rank of the constraints is found by a dense decomposition
+constexpr int kDenseFreedoms = 900;  // number of coordinates up to which the rank of the constraints is found by a dense decomposition
 
 std::string list_of_members(const CheckRedundancy& group) {
   constexpr std::size_t kShown = 8;
@@ -23,7 +23,7 @@ std::string list_of_members(const CheckRedundancy& group) {
   return text;
 }
 
-// The rows to leave out at q, of rows whose rank is known.
+// The rows to omit at q, from rows whose rank is known.
 std::vector<int> dependent_rows(const System& system, const std::vector<ConstraintRow>& rows, const std::vector<JointKinematics>& joint_kinematics,
                                 double tolerance) {
   const double length = arm_length(system, joint_kinematics);
@@ -65,7 +65,7 @@ IdealRows choose_ideal_rows(System system, const Vecs& q) {
     return std::any_of(system.joints.begin(), system.joints.end(), [&member](const JointData& joint) { return joint.ideal && joint.name == member.joint; });
   };
   for (const CheckRedundancy& group : mobility.redundancies) {
-    if (std::none_of(group.members.begin(), group.members.end(), is_ideal)) continue;  // laws share their loads
+    if (std::none_of(group.members.begin(), group.members.end(), is_ideal)) continue;  // their laws share the loads
     out.notes.push_back(fmt::format("ideal joints: {} redundant constraint{} among {}: the motion is unique, these reactions are not", group.degree,
                                     group.degree == 1 ? "" : "s", list_of_members(group)));
     for (const auto& member : group.members)

@@ -14,11 +14,11 @@ struct IdealRows {
   std::vector<std::string> not_unique;  // joints whose reactions the ideal equations do not determine
 };
 
-/// `system` with every joint of a linear law, and every servo, marked as ideal.
+/// `system` with every joint that has a linear law, and every servo, marked as ideal.
 [[nodiscard]] System make_ideal(System system);
 
-/// Which components are redundant at the assembled positions q. Reactions of the components left out are zero. theory/ideal
-/// section 3.
+/// Finds which components are redundant at the assembled positions q. Reactions of omitted components are zero.
+/// theory/ideal section 3.
 [[nodiscard]] IdealRows choose_ideal_rows(System system, const Vecs& q);
 
 }  // namespace pintle

@@ -14,7 +14,7 @@
 namespace pintle {
 namespace {
 
-// In place of laws that do not answer where the joints stand; what starts free, or touches nothing, is left alone.
+// Springs replace laws that give no force where the joints are; joints that start free or touch nothing are left alone.
 template <class S>
 std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
   const double size = largest_coordinate(state.q);
@@ -26,7 +26,7 @@ std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system
   return with_springs(system, open);
 }
 
-// What starts free but stands at the border of its law to rounding, as a rope that is taut without load, is taken for taut: it may carry.
+// A joint that starts free but is at the border of its law to roundoff, such as a rope that is taut without load, counts as taut: it may carry load.
 template <class S>
 void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
   const double rounding = kLastBits * largest_coordinate(state.q);
@@ -43,12 +43,13 @@ void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
   }
 }
 
-// Components of taut ropes and belts that would have to push, which no gap of theirs does: they are loads, as large as the bodies' positions make them.
+// Components of taut ropes and belts that would have to push, which no gap makes them do: they become loads that follow from the bodies' positions.
 template <class S>
 struct OneSided {
-  VecsOf<S> left, slack;  // 1 in them; and in those of them that have no pretension and carry nothing
+  VecsOf<S> left, slack;  // 1 in such components; 1 in those of them without pretension, which carry nothing
 
-  // Adds what the forces found ask to push: all that has pretension, and of the others what is asked for the most. Whether there is any.
+  // Adds the components that the forces found require to push: all with pretension, and of the others the one with the largest push. Returns whether
+  // there is any.
   bool add(const BasicSystem<S>& system, const BasicState<S>& taut, const BasicState<S>& found) {
     const double nothing = kFits * largest_force(found.force);
     double most = nothing;
@@ -91,7 +92,7 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
   find_gap_accelerations(system, r, state);
 }
 
-// Whether a body has moved by more than the mechanism is large, or turned by more than half a turn.
+// Whether a body has moved by more than the mechanism's size, or turned by more than half a turn.
 template <class S>
 bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to) {
   const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
@@ -104,8 +105,8 @@ bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, cons
 
 }  // namespace
 
-// Gaps that carry no stiffness are those of the positions. So are those that the bodies cannot take, as in redundant joints: the first
-// step would find others, and other forces, than the first row shows. theory/time Eq. (4.3).
+// Gaps without stiffness are taken from the positions. So are gaps that the bodies cannot assume, as in redundant joints: otherwise
+// the first step would find gaps and forces other than those in the first row. theory/time Eq. (4.3).
 template <class S>
 void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<typename S::Motion> m;
@@ -159,13 +160,14 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     if (one_sided.add(system, taut, state)) {
       forces.release(one_sided.left, one_sided.slack);
       state = taut;
-      pass = -1;  // from the beginning
+      pass = -1;  // start again
       continue;
     }
-    if (pass == 0 && firm)  // what no gap can carry, as a push in a rope, does not act
+    if (pass == 0 && firm)  // a force that no gap can carry, such as a push in a rope, does not act
       for (int j = 0; j < system.n_joints(); ++j)
         if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
-    // Where joints have given way, redundant ones may hold what was free: what the projection then takes for held is not, and the passes diverge.
+    // Where joints have deflected, redundant ones may hold what was free: the projection then holds components that are not held, and the passes
+    // diverge.
     if (pass > (firm ? 1 : 0) && largest_force(state.force) > kMostGrowth * largest_force(before.force)) {
       if (moves_too_far(system, unloaded, before)) return void(state = unloaded);
       state = before;
@@ -176,7 +178,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     fits = !forces.set_forces_from_bodies(state);
   }
   balance_start(system, state);
-  if (!is_finite(state) || moves_too_far(system, unloaded, state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large, and a soft thread turns its drum many times
+  if (!is_finite(state) || moves_too_far(system, unloaded, state)) state = unloaded;  // near a singular position joints would deflect by more than the mechanism's size, and a soft thread would turn its drum many times
 }
 
 double characteristic_length(const System& system, const Vecs& q) { return std::max(mechanism_size(system, q), system.largest_radius_of_gyration()); }

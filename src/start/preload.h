@@ -7,34 +7,34 @@
 
 namespace pintle {
 
-/// Of the mechanism's size, and in rad: what is off by less is where it was stated to be.
+/// As a fraction of the mechanism's size, and in rad: a coordinate off by less counts as being at its stated value.
 inline constexpr double kAsStated = 1e-9;
 
-// Of free bodies, and over a tree.
-inline constexpr int kPreloadPasses = 6;     // of forces and gaps in turns, at most
-inline constexpr int kRedundantPasses = 30;  // where gaps do not fit together yet
-inline constexpr int kCarefulPasses = 15;    // of these that cross no border of a law, at first
-inline constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt at a start that has not converged
+// Shared by starts of free bodies and starts over a tree.
+inline constexpr int kPreloadPasses = 6;     // upper limit on alternating passes of forces and gaps
+inline constexpr int kRedundantPasses = 30;  // upper limit while gaps do not yet fit together
+inline constexpr int kCarefulPasses = 15;    // number of first passes that cross no border of a law
+inline constexpr double kMostGrowth = 2;  // upper limit on the growth of the largest joint force in a start that has not converged
 
-/// Whether joints start with the deflections that carry what the motion needs.
+/// Whether joints start with the deflections that carry the forces that the motion needs.
 inline bool is_preloaded(Start start) { return start == Start::kAssembled || start == Start::kSeated; }
 
-/// Whether bodies that only touch in this joint stand apart, by more than the rounding of a mechanism of this size [m].
+/// Whether bodies that only touch in this joint are apart by more than the roundoff of a mechanism of this size [m].
 template <class S>
 bool is_open_contact(const BasicLaw<S>& law, const typename S::Vec& gap, double size) {
   return law.penetration(S::Vec::Zero()) == 0 && law.penetration(gap) < -kAsStated * size;
 }
 
-/// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.
+/// Accelerations caused by the actual joint forces at the state's gaps, and the corresponding gap accelerations.
 template <class S>
 void balance_start(const BasicSystem<S>& system, BasicState<S>& state);
 
 /// Completes `state` (q, v given): accelerations, gaps and forces. With `preload` the positions and velocities are moved
-/// by the (small) joint deflections; without it the joints start as the positions leave them.
+/// by the (small) joint deflections; without it the gaps follow from the given positions.
 template <class S>
 void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state);
 
-/// The mechanism's size, or its largest radius of gyration where that is more, as of a rotor on its own axis [m].
+/// The mechanism's size, or its largest radius of gyration if that is larger, as for a rotor on its own axis [m].
 double characteristic_length(const System& system, const Vecs& q);
 
 }  // namespace pintle

@@ -15,7 +15,7 @@ namespace {
 
 using S = Planar;
 
-// How far a component goes out from the middle, in doublings, until the law pushes back with as much; none where it never does.
+// How far a component must move out from the middle, in doublings, until the law pushes back with that force; nullopt if it never does.
 std::optional<double> way_to_side(const BasicLaw<S>& law, int component, double force) {
   S::Vec gap = S::Vec::Zero();
   if (!go_out_against<S>(law, force * S::Vec::Unit(component), S::Vec::Zero(), gap)) return std::nullopt;
@@ -24,9 +24,9 @@ std::optional<double> way_to_side(const BasicLaw<S>& law, int component, double 
 
 bool holds(const JointData& joint, int component) { return joint.free_mask[component] == 0 && joint.law.engaged_stiffness()[component] > 0; }
 
-// From the middle to the side, in the component where that is nearest [m] or [rad].
+// The distance from the middle to the side, in the component where it is smallest [m] or [rad].
 double play_of(const JointData& joint, int& component) {
-  constexpr double kTouch = 1e-6;  // of the stiffness where the law acts, times 1 m: the force that tells it. With 1 N the beam of test SeatedStart stays in its play
+  constexpr double kTouch = 1e-6;  // force that indicates touch, as a fraction of the stiffness where the law acts times 1 m. With 1 N the beam of test SeatedStart stays in its play
   double play = std::numeric_limits<double>::infinity();
   for (int k = 0; k < S::kDof; ++k) {
     const std::optional<double> way = holds(joint, k) ? way_to_side(joint.law, k, kTouch * joint.law.engaged_stiffness()[k]) : std::nullopt;
@@ -37,7 +37,7 @@ double play_of(const JointData& joint, int& component) {
   return play;
 }
 
-// The same mechanism without its plays: springs as stiff as the laws where these act, or no stiffer than to give way by the play under `load` [N].
+// The same mechanism without play: springs as stiff as the laws where these act, but soft enough to deflect by the play under `load` [N].
 System without_play(const System& system, const std::vector<int>& joints, double load) {
   System firm = system;
   for (const int j : joints) {
@@ -51,9 +51,9 @@ System without_play(const System& system, const std::vector<int>& joints, double
   return firm;
 }
 
-// Whether loops close only because play gives way.
+// Whether loops close only by using up play.
 bool has_misfit(const System& system, const State& state, const std::vector<int>& joints) {
-  constexpr double kMisfit = 1e-3;  // of the play: less is what pins hardly feel
+  constexpr double kMisfit = 1e-3;  // as a fraction of the play: a smaller misfit hardly affects the pins
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, state.t, state.q, state.v, m, r);
@@ -64,7 +64,7 @@ bool has_misfit(const System& system, const State& state, const std::vector<int>
   });
 }
 
-// Of the mechanism that assembly leaves, where loads move loose bodies as they like [N].
+// The largest load on a body of the assembled mechanism, in which loads move loose bodies freely [N].
 double largest_load_on_bodies(const System& system, const State& state) {
   State free = state;
   start_forces(system, false, free);
@@ -73,15 +73,16 @@ double largest_load_on_bodies(const System& system, const State& state) {
   return largest;
 }
 
-// Where the bodies go when joints with play are taken to the sides that their loads press them to; which of these carry nothing, and stay in the middle; and which
-// others hold away from their side.
+// Where the bodies go when joints with play move to the sides that their loads press them to; which of these joints carry nothing and stay in the middle; and
+// which are kept from their side by other joints.
 struct Seating {
   Vecs q, v;
   std::vector<int> unloaded, out_of_reach;
 };
 
 Seating seat(const System& system, const std::vector<int>& loose, const State& state) {
-  // Springs without play would carry a misfit as a preload; as soft as the play is wide, they share it out as the pins do that go to their sides.
+  // Springs without play would carry a misfit as a preload. If each is soft enough to deflect by its play, they share the misfit as pins that go to their sides
+  // do.
   const bool misfit = has_misfit(system, state, loose);
   State carried = state;
   System firm = without_play(system, loose, misfit ? largest_load_on_bodies(system, state) : 0);
@@ -147,7 +148,7 @@ std::string names_of_joints_in_play(const System& system, const State& state) {
 }
 
 std::string seat_joints(const System& system, State& state) {
-  std::vector<int> loose = joints_in_play(system), left;  // in the middle
+  std::vector<int> loose = joints_in_play(system), left;  // joints that stay in the middle
   while (!loose.empty()) {
     System without = system;
     for (const int j : left) without.joints[j].law = BasicLaw<S>(LinearLaw{});

@@ -17,22 +17,22 @@
 namespace pintle {
 namespace {
 
-constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
-constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
-constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
-constexpr double kMostKick = 0.5;                     // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
-constexpr double kMostOfStored = 0.2;                 // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 0.1 is the most of the collection (a toggle under load), 0.3 and more have starts that rounding makes
-constexpr double kMostChange = 0.1;                   // of a force: what joints on their slow motion change any force by. 0.007 is the most of fast ones of the collection, 0.9 a hoist that was turned back; 0.09 of soft ones, 7 a latch whose toe was to stick (tests/models/hoist_against_friction.toml)
-constexpr double kLeastMeasure = 0.03;                  // of the largest force: no force is smaller as what its change is measured by. A motor that has nothing to do was given 50 N beside a weight of 510 N with 1; the collection starts alike with 0.01
-constexpr double kBalanced = 1e-6;                    // of the largest joint force: what accelerates a body less leaves it at rest
-constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
-constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
+constexpr double kMostHaste = 1e-3, kMostLever = 30;  // upper limits on the change of a body's speed due to the joints' deflection: as a fraction of the largest speed; or as a multiple of the largest gap rate
+constexpr double kExact = 1e-6;                       // relative change of the gaps below which no more settling is needed
+constexpr double kUnsettledGrowth = 1.1;              // upper limit on the growth of the largest force when the sweeps of soft joints have not converged: a start beyond it is rejected. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
+constexpr double kMostKick = 0.5;                     // upper limit, as a fraction of a joint's force, on what may ring because gap rates are known no better than the gaps, which the last sweep has changed
+constexpr double kMostOfStored = 0.2;                 // upper limit, as a fraction of the energy that joints store, on the kinetic energy that fast ones give bodies. The collection's largest value is 0.1 (a toggle under load); starts dominated by roundoff have 0.3 and more
+constexpr double kMostChange = 0.1;                   // upper limit, as a fraction of a force, on its change when joints are put on their slow motion. Fast ones of the collection change it by 0.007 at most, a hoist that was turned back by 0.9; soft ones by 0.09, a latch whose toe was to stick by 7 (tests/models/hoist_against_friction.toml)
+constexpr double kLeastMeasure = 0.03;                  // as a fraction of the largest force: lower limit on the force that a change is compared with. With 1, an idle motor was given 50 N next to a weight of 510 N; with 0.01 the collection starts the same
+constexpr double kBalanced = 1e-6;                    // as a fraction of the largest joint force: a body counts as at rest if the force that accelerates it is below this
+constexpr double kSmallCouple = 0.05;                 // as a fraction of the largest force at the largest radius of gyration: growth of couples below this is not checked
+constexpr double kEntirely = 0.99;                    // share of its slow motion from which a soft joint counts as following the motion
 
 constexpr const char* kNotSettled = "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated errors do not include this";
 
-// Half a step that a rough integration takes; at least the time in which the slowest joint vibrates, but no longer than `longest`: over less,
-// rates and accelerations of gaps are rounding. Rounded to a part of the duration, so that it does not change with every slight change of the
-// model: where a joint is as slow as the motion, what is called its slow motion depends on the span.
+// Half a step of a rough integration, but at least the time in which the slowest joint vibrates, or `longest` if that is shorter: over
+// less, rates and accelerations of gaps are roundoff. Rounded to a binary fraction of the duration, so that it does not change with every
+// slight change of the model: where a joint is as slow as the motion, its slow motion depends on the span.
 template <class S>
 double smooth_span(const BasicSystem<S>& system, const BasicState<S>& start, double duration, double slowest, double longest) {
   const double half = 0.5 * natural_step<BasicRadauStepper<S>>(system, start, duration);
@@ -49,8 +49,8 @@ double largest_gap_rate(const BasicSystem<S>& system, const BasicState<S>& state
   return largest;
 }
 
-// In a chain of hundreds of joints, each of them fast, their compliances add up to modes slower than the motion. What the sweeps
-// then approach is not where it starts: all joints give way a little, one after the other, and the ends get speeds of their own.
+// In a chain of hundreds of joints, each of them fast, the compliances add up to modes slower than the motion. The sweeps then
+// do not approach the start: all joints deflect a little, one after the other, and the ends get speeds of their own.
 template <class S>
 bool is_runaway(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given) {
   VecsOf<S> change = attempt.v;
@@ -58,7 +58,8 @@ bool is_runaway(const BasicSystem<S>& system, const BasicState<S>& attempt, cons
   return system.largest_speed(change) > std::max(kMostHaste * system.largest_speed(given.v), kMostLever * largest_gap_rate(system, attempt));
 }
 
-// Whether sweeps that have not converged came near. Forces or couples far above those of the given state are no attempt at all, nor is what diverged.
+// Whether sweeps that have not converged came near. An attempt that diverged, or has forces or couples far above those of the given state, is
+// useless.
 template <class S>
 bool is_near(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given, double most_growth = kMostGrowth) {
   const double force = largest_force(given.force), couple = std::max(largest_couple<S>(given.force), kSmallCouple * force * system.largest_radius_of_gyration());
@@ -73,7 +74,7 @@ double twice_stored(const BasicState<S>& state) {
   return twice;
 }
 
-// Gaps that go with the motion, at rates below those of their own vibration, give bodies less kinetic energy than the joints store.
+// Gaps that follow the motion, more slowly than their own vibration, give bodies less kinetic energy than the joints store.
 template <class S>
 bool is_moderate(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given, double share) {
   VecsOf<S> change = attempt.v;
@@ -81,7 +82,7 @@ bool is_moderate(const BasicSystem<S>& system, const BasicState<S>& attempt, con
   return 2 * system.kinetic(change) <= share * twice_stored(attempt) + kFits * 2 * system.kinetic(given.v);
 }
 
-// The slowest rate of the gaps that count as fast [1/s].
+// The slowest rate of those gaps that count as fast [1/s].
 template <class S>
 double slowest_fast_rate(const BasicTimeScales<S>& time_scales) {
   double slowest = std::numeric_limits<double>::infinity();
@@ -91,7 +92,7 @@ double slowest_fast_rate(const BasicTimeScales<S>& time_scales) {
   return slowest;
 }
 
-// Sweeps may converge to another motion than the one that the given forces begin: where they turn back a joint that rubs, for instance.
+// Sweeps may converge to a motion other than the one that the given forces start, for instance if they turn back a joint with friction.
 template <class S>
 bool keeps_forces(const BasicState<S>& attempt, const BasicState<S>& given) {
   const double least = kLeastMeasure * largest_force(given.force);
@@ -102,15 +103,15 @@ bool keeps_forces(const BasicState<S>& attempt, const BasicState<S>& given) {
   return true;
 }
 
-// Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
-// time it was found; 0: it was not.
+// Puts fast joints on their slow motion. If that is not found, the state stays, or with `keep_best` becomes the best attempt.
+// Returns the time over which it was found; 0: it was not.
 template <class S>
 double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double slowest, double span, bool keep_best, BasicState<S>& state) {
   const BasicState<S> given = state;
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
     BasicState<S> attempt = state;
     const double moved = move_onto_slow_manifold(system, time_scales, span, attempt);
-    // Differentiated over a span that is too short, what the last sweep has moved gaps by is a rate above their own.
+    // Differentiated over too short a span, the gap changes of the last sweep would give rates above those of the gaps' own vibration.
     const double change = std::max(moved, moved * ChebyshevNodes().D.cwiseAbs().maxCoeff() / (span * slowest) * (kSettledSweep / kMostKick));
     if (is_runaway(system, attempt, given) || !is_moderate(system, attempt, given, kMostOfStored)) continue;
     if (change < kSettledSweep && !keeps_forces(attempt, given)) continue;
@@ -120,10 +121,10 @@ double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
   return 0;
 }
 
-// In one note: they may be many.
+// All in one note, as there may be many.
 template <class S>
 void note_slow_joints(const BasicSystem<S>& system, const std::vector<std::size_t>& slow, double longest, std::vector<std::string>& notes) {
-  constexpr std::size_t kNamed = 6;  // of them, at most
+  constexpr std::size_t kNamed = 6;  // upper limit on the joints named
   std::string names;
   for (std::size_t i = 0; i < std::min(slow.size(), kNamed); ++i) {
     const BasicJointData<S>& joint = system.joints[slow[i]];
@@ -134,11 +135,11 @@ void note_slow_joints(const BasicSystem<S>& system, const std::vector<std::size_
                               names, slow.size() == 1 ? "it" : "them", slow.size() == 1 ? "its" : "their", longest, slow.size() == 1 ? "it begins" : "they begin"));
 }
 
-// Says which joints start on a motion of their own. True when there are none.
+// Notes which joints start on a motion of their own. True if there are none.
 template <class S>
 bool note_resolved_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, const BasicSoftStart<S>& soft, std::vector<std::string>& notes) {
   std::vector<std::size_t> slow;
-  double longest = 0;  // of the times in which they follow [s]
+  double longest = 0;  // longest of the times in which they follow their load [s]
   for (std::size_t j = 0; j < soft.share.size(); ++j) {
     Eigen::Index slowest = 0;
     const double share = soft.share[j].minCoeff(&slowest);
@@ -161,7 +162,7 @@ void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& 
   const bool along = note_resolved_joints(system, time_scales, soft, start.notes);
   if (soft.placed && fits && along && soft.change < kExact) return;
   const double slowest = slowest_fast_rate(time_scales);
-  const bool all_soft = !std::isfinite(slowest);  // then no fast joint is left that would ring
+  const bool all_soft = !std::isfinite(slowest);  // then there is no fast joint that would ring
   if (all_soft && soft.placed && fits && converged) return;
   if (settle_fast_joints(system, time_scales, slowest, span, false, start.state) > 0) return;
   if (!soft.placed || !fits || !converged) start.notes.push_back(kNotSettled);
@@ -194,7 +195,7 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   const BasicState<S> given = state;
   const double slowest = slowest_fast_rate(time_scales);
   start.settled_over = settle_fast_joints(system, fast, slowest, smooth_span(system, state, duration, slowest, span), true, state);
-  if (start.settled_over == 0 && span > 0) {  // where next to nothing acts yet, the steps of a rough integration are those of rounding
+  if (start.settled_over == 0 && span > 0) {  // where almost nothing acts yet, roundoff determines the steps of a rough integration
     BasicState<S> slower = given;
     start.settled_over = settle_fast_joints(system, fast, slowest, std::min(span, duration), false, slower);
     if (start.settled_over > 0) state = std::move(slower);

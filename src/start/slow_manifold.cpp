@@ -16,15 +16,15 @@ namespace pintle {
 namespace {
 
 constexpr int kNodes = ChebyshevNodes::kN;
-constexpr int kOrders = 6;               // sweeps in which soft joints go with the motion
-constexpr double kSmallForce = 0.05;     // of the largest: the change of a force is measured by this at least
-constexpr double kMostMismatch = 0.04;   // of the largest force: what a law may lack of the force that its gap was to carry. Starts of the collection lack 3e-3 at most; 0.03 is a good start yet (a beam whose play takes up a misfit), 0.046 is none (a shaft in a dry bush), oil films lack 30 and more
-constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need, at most
-constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
-constexpr int kLeap = 4;                 // halvings at once, of a stretch that is far from resolved
-constexpr double kShortOfMotion = 0.25;  // of a stretch that is just resolved: what is used of it
-constexpr double kEager = 0.7;           // of a step of the motion, over the time constant of the fastest resolved joint
-constexpr double kMostSteps = 300;       // of the motion from one node to the next, at most
+constexpr int kOrders = 6;               // sweeps in which soft joints follow the motion
+constexpr double kSmallForce = 0.05;     // as a fraction of the largest force: lower limit on the force that a change is compared with
+constexpr double kMostMismatch = 0.04;   // upper limit, as a fraction of the largest force, on the difference between a law's force and the force that its gap was to carry. Starts of the collection differ by 3e-3 at most; 0.03 is still a good start (a beam whose play takes up a misfit), 0.046 is not (a shaft in a dry bush), oil films differ by 30 and more
+constexpr int kHalvings = 30;            // upper limit on the halvings of the interval until the forces' curves are resolved
+constexpr double kResolved = 1e-4;       // as a fraction of the forces: a curve is resolved if its last coefficients are below this
+constexpr int kLeap = 4;                 // halvings at once if an interval is far from resolved
+constexpr double kShortOfMotion = 0.25;  // fraction used of an interval that is just resolved
+constexpr double kEager = 0.7;           // step of the motion, as a fraction of the time constant of the fastest resolved joint
+constexpr double kMostSteps = 300;       // upper limit on steps of the motion from one node to the next
 
 using Nodes = ChebyshevNodes;
 template <class S>
@@ -44,13 +44,13 @@ class BasicSlowManifold {
       if (begins_at_start(j)) put_at_start(j);
   }
 
-  // All joints go with the motion, each as far as `share` says.
+  // All joints follow the motion, each by its `share`.
   void go_with_the_motion(const VecsOf<S>& share) {
     share_ = share;
     differentiate();
   }
 
-  // Soft joints go from where they start: overdamped ones as their damping lets them, resolved ones by their laws.
+  // Soft joints move from where they start: overdamped ones as fast as their damping permits, resolved ones by their laws.
   void release() {
     if (!soft_) return;
     released_ = true;
@@ -65,7 +65,7 @@ class BasicSlowManifold {
     for (std::size_t j = 0; j < start_.gap.size(); ++j) rate_[0][j] += time_scales_.overdamped[j].cwiseProduct(start_.gap_rate[j]);
   }
 
-  // One sweep: follow the motion with the present gap accelerations; gaps from the forces that it takes. Relative change.
+  // One sweep: follows the motion with the present gap accelerations, and takes new gaps from the forces that it needs. Returns their relative change.
   double sweep() {
     BasicState<S> at = start_;
     put(0, at);
@@ -94,7 +94,7 @@ class BasicSlowManifold {
     return change / size;
   }
 
-  // The start that the sweeps have found. Where an overdamped joint starts is given: its rate carries the force.
+  // The start that the sweeps have found. The gap of an overdamped joint is given, so its rate carries the force.
   bool write_start(BasicState<S>& state) {
     put(0, state);
     for (std::size_t j = 0; released_ && j < state.gap.size(); ++j)
@@ -114,8 +114,8 @@ class BasicSlowManifold {
     state.gap_rate = carried_rate_;
   }
 
-  // How far the forces that the laws give a start are from those that the sweeps have found for it, over the largest of these. What the sweeps leave free, as the
-  // stroke of a cylinder that is fed, they give no force.
+  // The largest difference between the forces of the laws and those that the sweeps have found for a start, relative to the largest of the latter. Components
+  // that the sweeps leave free, such as the stroke of a fed cylinder, have no force in the sweeps and are not compared.
   double mismatch(const BasicState<S>& state) const {
     double most = 0;
     for (std::size_t j = 0; j < state.force.size(); ++j)
@@ -124,7 +124,7 @@ class BasicSlowManifold {
     return most / std::max(largest_force(force_[0]), 1e-300);
   }
 
-  // Share of the forces' curves that the last two of their Chebyshev coefficients make up; of the couples' where no joint carries a force.
+  // Relative size of the last two Chebyshev coefficients of the forces' curves; of the couples' curves where no joint carries a force.
   double unresolved() const {
     const auto part = [&](const auto& part_of) {
       double tail = 0, size = 1e-300;
@@ -148,7 +148,7 @@ class BasicSlowManifold {
   const VecsOf<S>& rate() const { return rate_[0]; }
 
  private:
-  // With a closed gap such a joint would not resist, and its force would find no gap.
+  // With a closed gap such a joint would not resist, and no gap could be found for its force.
   bool begins_at_start(std::size_t j) const { return system_.joints[j].law.starts_free(); }
   void put_at_start(std::size_t j) {
     for (auto& gap : gap_) gap[j] = start_.gap[j];
@@ -162,7 +162,7 @@ class BasicSlowManifold {
     at.gap_accel = accel_[node];
   }
 
-  // A gap as the force it makes.
+  // A gap expressed as the force that it causes.
   typename S::Vec weighted(std::size_t j, const typename S::Vec& gap) const {
     return respond(system_.joints[j].law, start_.gap[j], start_.gap_rate[j]).stiffness * gap;
   }
@@ -175,7 +175,7 @@ class BasicSlowManifold {
     }
   }
 
-  // theory/assembly Eq. (5.6): overdamped gaps from where they start, by collocation at the other nodes.
+  // Overdamped gaps from their starting values, by collocation at the other nodes. theory/assembly Eq. (5.6).
   void follow_overdamped() {
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       std::array<BasicResponse<S>, kNodes> now;
@@ -201,7 +201,7 @@ class BasicSlowManifold {
     }
   }
 
-  // Short steps where resolved joints follow their laws.
+  // Takes short steps where resolved joints follow their laws.
   void follow(BasicState<S>& at, double s0, double s1) {
     const double eager = released_ ? time_scales_.fastest * span_ * (s1 - s0) / kEager : 0;
     const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, kMostSteps));
@@ -216,7 +216,7 @@ class BasicSlowManifold {
     forces_.find_accelerations(at);
   }
 
-  // One classical Runge-Kutta step of the motion whose gap accelerations are given, from where accelerations have been found.
+  // One classical Runge-Kutta step of the motion with given gap accelerations, from a state whose accelerations are known.
   void runge_kutta(BasicState<S>& at, double s0, double s1) {
     const double h = span_ * (s1 - s0);
     auto& [begin, now, kq, kv] = work_;
@@ -268,12 +268,12 @@ class BasicSlowManifold {
   struct {
     BasicState<S> begin, now;
     std::array<VecsOf<S>, 4> kq, kv;
-  } work_;  // of one step: at 100,000 bodies fresh memory costs as much as the step
+  } work_;  // kept between steps: at 100,000 bodies fresh memory costs as much as the step
   bool swept_ = false;
 };
 
-// How far soft joints may go with the motion, theory/assembly Eq. (5.4): all the way where their own dynamics is faster
-// than what their force does, not at all where it is slower. Fast ones go all the way.
+// How far soft joints may follow the motion, theory/assembly Eq. (5.4): entirely where their own dynamics is faster
+// than the changes of their force, not at all where it is slower. Fast ones follow it entirely.
 template <class S>
 VecsOf<S> shares(const BasicTimeScales<S>& time_scales, const BasicSlowManifold<S>& motion, const BasicSystem<S>& system) {
   const VecsOf<S> &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
@@ -297,7 +297,7 @@ VecsOf<S> shares(const BasicTimeScales<S>& time_scales, const BasicSlowManifold<
   return share;
 }
 
-// How often to halve a stretch of whose curves this part is not resolved: each halving takes off about two to the number of the nodes.
+// How often to halve an interval whose curves have this unresolved part: each halving reduces it by about two to the power of the number of nodes.
 int halvings_for(double unresolved) {
   return unresolved < 1 ? 1 + static_cast<int>(std::log2(unresolved / kResolved) / kNodes) : kLeap;
 }
@@ -308,7 +308,7 @@ template <class S>
 double span_of_motion(const BasicSystem<S>& system, const BasicState<S>& state, double longest) {
   const BasicTimeScales<S> time_scales = all_fast(system);
   const double whole = std::exp2(std::ceil(std::log2(longest)));
-  int too_long = -1, resolved = kHalvings;  // the halvings between which the answer is
+  int too_long = -1, resolved = kHalvings;  // bounds on the number of halvings
   for (int next = 0; resolved - too_long > 1;) {
     BasicSlowManifold<S> motion(system, std::ldexp(whole, -next), state, time_scales);
     const double rest = motion.sweep() < kDiverged ? motion.unresolved() : kDiverged;

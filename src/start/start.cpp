@@ -25,14 +25,14 @@
 namespace pintle {
 namespace {
 
-// What joints that stay compliant beside ideal ones remember, as contacts do of their touch, these equations do not follow.
+// These equations do not follow the states of joints that stay compliant among ideal ones, such as what a contact remembers of its touch.
 void demand_no_states(const System& system) {
   for (const JointData& joint : system.joints)
     if (!joint.ideal && !joint.law.feeds() && joint.law.n_states() > 0)
       throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not follow what its law remembers, such as a touch and its speed: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\" (in compare: --against relative), which keeps the joints of a tree ideal.", joint.name));
 }
 
-// Ideal joints carry no preload: the loops are closed as they are. Joints that stay force laws begin with the deflections that carry their loads.
+// Ideal joints carry no preload: their loops are closed exactly. Joints that stay force laws begin with the deflections that carry their loads.
 Assembly ideal_start(Model model, double known_span) {
   const bool loaded = is_preloaded(model.simulate.start);
   if (model.simulate.start == Start::kAssembled) model.simulate.start = Start::kUnloaded;
@@ -54,9 +54,9 @@ Assembly ideal_start(Model model, double known_span) {
   return assembly;
 }
 
-// Loads that bend the joints far at the start are often others than were meant: a damper that a chosen velocity drives, a joint softer than thought.
+// Loads that deflect the joints far at the start are often unintended: a damper driven by a chosen velocity, a joint softer than expected.
 void note_far_deflection(const System& system, const Vecs& assembled, const State& state, std::vector<std::string>& notes) {
-  constexpr double kFarTurn = 0.05, kFarWay = 0.05;  // [rad]; of the mechanism's size
+  constexpr double kFarTurn = 0.05, kFarWay = 0.05;  // [rad]; as a fraction of the mechanism's size
   const double size = characteristic_length(system, assembled);
   double far = 1;
   std::string note;
@@ -71,9 +71,9 @@ void note_far_deflection(const System& system, const Vecs& assembled, const Stat
   if (!note.empty()) notes.push_back(std::move(note));
 }
 
-// The deflections of joints and actuators are hardly ever meant to move what is held while the mechanism is assembled.
+// The deflections of joints and actuators are hardly ever meant to move coordinates that are held during assembly.
 void note_held_that_moved(const Model& model, const System& system, const Vecs& assembled, const State& state, std::vector<std::string>& notes) {
-  constexpr double kFar = 0.02;  // [rad], and of the mechanism's size. With half of it the belt drive of the collection, whose belt stretches by 0.7 deg, has the note
+  constexpr double kFar = 0.02;  // [rad], and as a fraction of the mechanism's size. With half of it the belt drive of the collection, whose belt stretches by 0.7 deg, gets the note
   const std::string moved = held_that_moved(model, assembled, state.q, kFar, kFar * characteristic_length(system, assembled));
   if (moved.empty()) return;
   const bool at_rest = std::none_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.velocity.value_or(Vec2{}) != Vec2{} || body.spin.value_or(0) != 0; });
@@ -101,7 +101,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   return assembly;
 }
 
-// The mechanism as it is assembled, if it is at rest so.
+// The assembled mechanism, if it is at rest.
 std::optional<Assembly> start_at_rest(Model model) {
   model.simulate.start = Start::kSeated;
   try {
@@ -112,7 +112,7 @@ std::optional<Assembly> start_at_rest(Model model) {
   return std::nullopt;
 }
 
-// Where the mechanism rests if nothing rubs on the way there: it rests there with friction, too.
+// Where the mechanism rests if there is no friction on the way there: it rests there with friction, too.
 std::optional<Assembly> smooth_rest(const Model& model) {
   try {
     Assembly assembly = start_in_equilibrium(model, true);
@@ -123,7 +123,7 @@ std::optional<Assembly> smooth_rest(const Model& model) {
   }
 }
 
-// Where the creep finds no rest, as that of a block that only static friction holds on its ramp, the assembled mechanism may be at rest itself.
+// Where the creep finds no rest, as for a block held on its ramp by static friction alone, the assembled mechanism may itself be at rest.
 Assembly settled_start(const Model& model) {
   try {
     return start_in_equilibrium(model);
@@ -137,7 +137,7 @@ Assembly settled_start(const Model& model) {
   }
 }
 
-// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction, its detent and its stops either.
+// Equations that keep a gap at zero do not evaluate the joint's law, so they omit its friction, its detent and its stops too.
 template <class IsIdeal>
 void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<std::string>& notes) {
   for (int j = 0; j < system.n_joints(); ++j) {
@@ -151,9 +151,9 @@ void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<s
   }
 }
 
-// Several motors by speed or position on fewer degrees of freedom: what they disagree in deflects joints.
+// Several speed or position motors on fewer degrees of freedom: the differences between their demands deflect joints.
 void note_conflicting_motors(const System& system, const Vecs& q, std::vector<std::string>& notes) {
-  constexpr std::size_t kMostBodies = 200;  // of larger mechanisms the rank takes long
+  constexpr std::size_t kMostBodies = 200;  // finding the rank of larger mechanisms takes long
   std::string names;
   int servos = 0;
   for (const JointData& joint : system.joints) {

@@ -1,4 +1,4 @@
-// The door of this room: the state that a run starts from, and the complete system that goes with it.
+// Entry point of this directory: the state that a run starts from, with its complete system.
 #pragma once
 
 #include "start/assembly.h"
@@ -8,8 +8,8 @@
 namespace pintle {
 
 /// Assembles `model`, then, for start = "assembled", puts the joints on their slow motion so that no ringing is excited: theory/assembly
-/// section 4. With `known_span`, the time over which the joints of a mechanism like this one are smooth [s], it is not looked for. Throws
-/// AssemblyError when a loop cannot close.
+/// section 4. `known_span`: the time over which the joints of a mechanism like this one are smooth [s]; if given, it is not searched for.
+/// Throws AssemblyError when a loop cannot close.
 Assembly start_of_run(const Model& model, double known_span = 0);
 
 }  // namespace pintle

@@ -1,4 +1,5 @@
-// Starts with soft joints: closed forms of one body on a spring, forces of ideal joints, independence of what does not matter.
+// Starts with soft joints: closed forms of one body on a spring, forces of ideal joints, independence of irrelevant
+// quantities.
 #include "start/start.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ State started(Model model) {
   return start_of_run(model).state;
 }
 
-// A sweep that finds the very gaps of the one before has converged, and the state that belongs to them counts.
+// A sweep that finds the same gaps as the previous one has converged, and its state is taken.
 TEST(Start, SweepsThatRepeatTheirGapsHaveConverged) {
   struct Sweeps {
     std::array<double, 3> change;
@@ -69,7 +70,7 @@ TEST(Start, ASpringSlowEnoughStartsOnItsForcedMotion) {
   }
 }
 
-// Slow against its load: nothing but the gap that carries it, at rest.
+// Slow compared with its load: it starts at rest with the gap that carries the load.
 TEST(Start, ASpringMuchSlowerThanItsLoadStartsAtRestUnderIt) {
   const double k = 200, w = 100 * std::sqrt(k / kPushedMass);
   const State state = started(pushed_mass(k, 0.5, w));
@@ -77,7 +78,7 @@ TEST(Start, ASpringMuchSlowerThanItsLoadStartsAtRestUnderIt) {
   EXPECT_NEAR(k * state.v[0][0] / w, 0, 1e-3 * kSteady);
 }
 
-// Relaxation k/c no faster than the load: where it starts is free, but spring and damper together carry the load.
+// Relaxation k/c no faster than the load: the starting gap is arbitrary, but spring and damper together carry the load.
 TEST(Start, AnOverdampedJointCarriesItsLoadFromTheStart) {
   const State state = started(pushed_mass(1e7, 5e5, 10));
   EXPECT_NEAR(-state.force[0][0], kSteady, 1e-5 * kSteady);
@@ -93,8 +94,8 @@ TEST(Start, DoesNotDependOnTheDurationOfTheRun) {
   EXPECT_NEAR(one.gap_rate[0][0], other.gap_rate[0][0], 1e-5 * kSteady * 5 / 2e3);
 }
 
-// Journal bearings give way by F/k = 60 um: the forces are those of ideal joints but for that share of a link, and what it
-// takes to accelerate the gaps.
+// Journal bearings deflect by F/k = 60 um: the forces are those of ideal joints, apart from a relative error of 60 um
+// over a link's length and the forces that accelerate the gaps.
 TEST(Start, JournalBearingsCarryTheForcesOfIdealJoints) {
   Model model = sample::four_bar(1e7, 5e5);
   model.simulate.duration = 1;
@@ -114,7 +115,7 @@ Model four_bar_with_soft_b(double others) {
   return model;
 }
 
-// What the others' stiffness changes goes as one over it.
+// The influence of the other joints' stiffness is inversely proportional to it.
 TEST(Start, ASoftJointDoesNotAskHowStiffTheOthersAre) {
   const State limit = started(four_bar_with_soft_b(1e12));
   const double force = limit.force[2].head<2>().norm();
@@ -125,7 +126,7 @@ TEST(Start, ASoftJointDoesNotAskHowStiffTheOthersAre) {
   }
 }
 
-// Rows of a tenth of a millisecond: a smooth force changes evenly, a ringing one does not.
+// Rows every tenth of a millisecond: a smooth force changes evenly, a ringing one does not.
 TEST(Start, TheForcesOfSoftJointsRunOnSmoothly) {
   for (Model model : {sample::four_bar(1e7, 5e5), four_bar_with_soft_b(1e8), four_bar_with_soft_b(1e9)}) {
     model.simulate.duration = 2e-3;
@@ -141,7 +142,7 @@ TEST(Start, TheForcesOfSoftJointsRunOnSmoothly) {
   }
 }
 
-// Where a force jumps at once no start is free of ringing, and the notes say so.
+// If a force jumps at the start, no start is free of ringing, and the notes say so.
 TEST(Start, NotesSayWhatStartsOnItsOwn) {
   const auto notes = [](const Model& model) { return start_of_run(model).notes; };
   const auto mention = [](const std::vector<std::string>& lines, const char* what) {

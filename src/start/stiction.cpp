@@ -17,11 +17,11 @@ namespace {
 
 using S = Planar;
 
-// Holds one component where it is.
+// Holds one component at its present value.
 struct LockLaw {
   static constexpr std::string_view kWord = "lock";
   int component = 0;
-  double k = 1, at = 0;  // [N/m or N*m/rad]; the gap that it holds
+  double k = 1, at = 0;  // [N/m or N*m/rad]; the gap at which it holds
 
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
@@ -32,16 +32,16 @@ struct LockLaw {
   Planar::Vec engaged_stiffness() const { return k * Planar::Vec::Unit(component); }
 };
 
-// A joint that friction holds, and what holds it instead.
+// A joint held by friction, and the lock that replaces the friction.
 struct LockedJoint {
   int joint;
   LockLaw lock;
-  double at_rest;       // an acceleration that is nothing but rounding [m/s^2] or [rad/s^2]
-  double force = 0;     // of the lock on the second body, and of its friction where it slips [N] or [N*m]
-  bool turned = false;  // slips the other way than its lock had it
+  double at_rest;       // an acceleration that is only roundoff [m/s^2] or [rad/s^2]
+  double force = 0;     // of the lock on the second body, or of the friction where it slips [N] or [N*m]
+  bool turned = false;  // slips in the direction opposite to that found from its lock
 };
 
-// Joints that stick, and would begin to move if friction did not hold them.
+// Sticking joints that would begin to move without friction.
 std::vector<LockedJoint> joints_to_hold(const System& system, const std::vector<JointKinematics>& r, const State& state) {
   const double nothing = kFits * largest_force(state.force), stiffest = largest_stiffness(system), size = characteristic_length(system, state.q);
   std::vector<LockedJoint> out;
@@ -51,14 +51,15 @@ std::vector<LockedJoint> joints_to_hold(const System& system, const std::vector<
     if (!held) continue;
     const double at_rest = nothing * system.own_mobility(joint.at, r[j])[held->component];
     if (!(std::abs(state.gap_accel[j][held->component]) > at_rest)) continue;
-    // What holds it while its load is found must not give way to that: surfaces that stick softly would.
+    // The lock must not deflect under the load that it is used to find: surfaces that stick softly would.
     const double firm = std::max(held->stiffness, stiffest * (held->component == 2 ? size * size : 1));
     out.push_back({.joint = j, .lock = {held->component, firm, r[j].gap[held->component]}, .at_rest = at_rest});
   }
   return out;
 }
 
-// The locks are joints of their own, after the others: what else acts in the component that they hold, as pressure in a cylinder does, is a load on them.
+// The locks are joints of their own, after the others: anything else that acts in the component that they hold, such as pressure in a cylinder, is a load
+// on them.
 System with_locks(const System& system, const std::vector<LockedJoint>& held) {
   System locked = system;
   for (const LockedJoint& one : held) {
@@ -77,14 +78,14 @@ System with_locks(const System& system, const std::vector<LockedJoint>& held) {
   return locked;
 }
 
-// Whether it slips the way that it has been told, though it has no speed yet. Bristles find their way themselves.
+// Whether its direction of slip is prescribed although it has no speed yet. Bristles find theirs by themselves.
 bool knows_its_way(const JointData& joint, double t, const S::Vec& gap) {
   std::vector<double> at_rest(static_cast<std::size_t>(joint.law.n_states()));
   joint.law.rest({t, gap, S::Vec::Zero(), at_rest.data()}, at_rest.data());
   return !joint.law.stiction(at_rest.data());
 }
 
-// The locks' forces, from the gaps behind those of the system's own joints; these alone remain.
+// Computes the locks' forces from their gaps, which follow those of the system's own joints, and removes the locks from the state.
 void take_off_locks(int n_joints, std::vector<LockedJoint>& held, BasicSettledStart<S>& start) {
   State& state = start.state;
   const S::Vec* gap = state.gap.data() + n_joints;
@@ -105,7 +106,7 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
     const System locked = with_locks(system, held);
     BasicSettledStart<Planar> trial = unloaded;
     start_forces(locked, true, trial.state);
-    // A lock that fights a motor does not know which way its joint goes. Each is turned once.
+    // A lock that opposes a motor does not determine the direction in which its joint moves. Each is reversed at most once.
     bool turned = false;
     for (LockedJoint& one : slipping) {
       const double accel = trial.state.gap_accel[one.joint][one.lock.component];
@@ -123,7 +124,8 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
       return one.force * r[one.joint].rate[one.lock.component] > StickSlip::kStill * std::abs(one.force) && knows_its_way(system.joints[one.joint], state.t, r[one.joint].gap);
     };
     if (std::any_of(slipping.begin(), slipping.end(), turned_back)) {
-      // What gives way, as a rope under a motor that slackens, would turn back a joint that has yet to move, and its friction: it gives way later.
+      // A compliant joint, such as a rope under a motor that slackens, would turn back a joint that has yet to move, and its friction. Its deflection is
+      // left to the run.
       state = given;
       trial.notes = unloaded.notes;
       trial.settled_over = 0;

@@ -19,15 +19,15 @@ namespace {
 
 using S = Planar;
 
-constexpr double kMostAjar = 1e-4;  // of the mechanism: what soft joints let go further is no start of what was assembled
+constexpr double kMostAjar = 1e-4;  // upper limit on the opening of contacts, as a fraction of the mechanism's size: if soft joints opened them further, it would no longer be the assembled mechanism
 
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
   int joint, k;
   double sign, stiffness;  // [N/m] or [N*m/rad], under the loads of the start
   S::Vec gap;              // where they touch
-  bool is_stop;            // of what the joint leaves free
-  double beside = 0;       // what else acts there on the second body, as the pressure in a cylinder [N] or [N*m]
+  bool is_stop;            // in a component that the joint leaves free
+  double beside = 0;       // other forces there on the second body, such as the pressure in a cylinder [N] or [N*m]
 };
 
 S::Vec gap_at(const Touch& touch, double depth) {
@@ -38,7 +38,7 @@ S::Vec gap_at(const Touch& touch, double depth) {
 
 double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * (force[touch.k] - touch.beside); }
 
-// A law at rest: of a stop all that acts in its component, of a contact what holds.
+// A law at rest: for a stop everything that acts in its component, for a contact the holding law.
 BasicResponse<S> respond_at_rest(const BasicLaw<S>& law, const Touch& touch, double depth) {
   const S::Vec gap = gap_at(touch, depth), still = S::Vec::Zero();
   if (!touch.is_stop) return respond(law, gap, still);
@@ -52,7 +52,7 @@ BasicResponse<S> respond_at_rest(const BasicLaw<S>& law, const Touch& touch, dou
   return out;
 }
 
-// By bisection, which no power of the depth disturbs.
+// By bisection, which works for any power of the depth.
 double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   const auto missing = [&](double depth) { return force - pressing(touch, respond_at_rest(law, touch, depth).force); };
   double low = 0, high = ContactForce::kUsualDepth;
@@ -64,7 +64,7 @@ double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   return high;
 }
 
-// Of all bodies, as they would move if surfaces that touch did not push [N].
+// The sum over all bodies, as they would move if touching surfaces did not push [N].
 double sum_of_loads(const System& system, const State& state) {
   State free = state;
   start_forces(system, false, free);
@@ -73,13 +73,13 @@ double sum_of_loads(const System& system, const State& state) {
   return sum;
 }
 
-// How deep surfaces, or a coordinate and its stop, are in each other at most; of a stop that is not reached, minus infinity.
+// The largest penetration of surfaces, or of a coordinate into its stop; minus infinity for a stop that is not reached.
 double depth_in(const BasicLaw<S>& law, const S::Vec& gap) {
   const std::optional<StopBreach> breach = law.breach(gap);
   return std::max(law.penetration(gap), breach ? breach->depth : -std::numeric_limits<double>::infinity());
 }
 
-// A contact that is hardly touched is soft: it counts with the stiffness that it has under `load`, at a lever of `length` where it holds an angle.
+// A lightly loaded contact is soft, so the stiffness is that under `load`, with lever arm `length` where the contact holds an angle.
 std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest, double load, double length) {
   const BasicLaw<S>& law = system.joints[j].law;
   if ((law.ideal_limit() || law.feeds()) && !law.has_stops()) return std::nullopt;
@@ -109,7 +109,7 @@ std::vector<Touch> find_touches(const System& system, const State& state) {
   return touches;
 }
 
-// Springs in place of the contacts and stops, which push and pull about where they touch.
+// Springs in place of the contacts and stops; they push and pull about the position of first touch.
 System with_springs(const System& system, const std::vector<Touch>& touches) {
   System firm = system;
   for (const Touch& touch : touches) {
@@ -129,7 +129,7 @@ System with_springs(const System& system, const std::vector<Touch>& touches) {
   return firm;
 }
 
-// Of all joints, along their lengths, under the forces that they carry [m]: about as far as bodies are moved by them at the most.
+// The sum of the translational deflections of all joints under the forces that they carry [m]: about the largest displacement of a body by them.
 double sum_of_deflections(const System& system, const State& state) {
   double sum = 0;
   for (int j = 0; j < system.n_joints(); ++j) {
@@ -140,7 +140,7 @@ double sum_of_deflections(const System& system, const State& state) {
   return sum;
 }
 
-// Of those of `all` that are not among `pressed`.
+// The joints of `all` that are not among `pressed`.
 std::vector<int> others(const std::vector<Touch>& all, const std::vector<Touch>& pressed) {
   std::vector<int> joints;
   for (const Touch& touch : all)
@@ -155,7 +155,7 @@ std::vector<int> press_touching_surfaces(const System& system, State& state) {
   std::vector<Touch> touches = all;
   State carried = state;
   const double length = characteristic_length(system, state.q);
-  double ajar = kAsStated * length;  // of what would pull; further than the loads deflect stiff joints
+  double ajar = kAsStated * length;  // opening of contacts that would pull; more than the loads deflect stiff joints
   while (!touches.empty()) {
     carried = state;
     const System firm = with_springs(system, touches);
@@ -182,7 +182,7 @@ std::vector<int> press_touching_surfaces(const System& system, State& state) {
 void press_touching_surfaces(Assembly& assembly) {
   const System& system = assembly.system;
   std::vector<int> idle = press_touching_surfaces(system, assembly.state);
-  std::erase_if(idle, [&system](int j) { return system.joints[static_cast<std::size_t>(j)].law.has_stops(); });  // as of a cylinder that begins to move out
+  std::erase_if(idle, [&system](int j) { return system.joints[static_cast<std::size_t>(j)].law.has_stops(); });  // as in a cylinder that begins to extend
   if (idle.empty()) return;
   std::string note = "surfaces that touch at the start without pressing on each other: " + names_of_joints(system, idle);
   if (std::any_of(idle.begin(), idle.end(), [&system](int j) { return system.joints[static_cast<std::size_t>(j)].type != "cam"; }))

@@ -16,10 +16,10 @@
 namespace pintle {
 namespace {
 
-constexpr double kBeyond = 2;         // times the error estimates: more is physical
+constexpr double kBeyond = 2;         // as a multiple of the error estimates: larger differences are physical
 constexpr int kMostDigits = 15;
 
-// The columns of one quantity: components whose differences count together.
+// The columns of one quantity: components whose differences are combined.
 struct Quantity {
   std::string name, unit;
   std::vector<std::pair<std::size_t, std::size_t>> columns;  // in the first and the second run
@@ -33,10 +33,10 @@ bool add_column(const Comparison& c, const std::string& name, Quantity& quantity
   return true;
 }
 
-// Up to which forces are promised [s].
+// The time up to which forces are valid [s].
 double horizon_of(const Trajectory& run) { return run.outcome == Outcome::kHorizon ? run.growth.horizon : std::numeric_limits<double>::infinity(); }
 
-// Rows of both runs at the same time, not after `until`.
+// Pairs of rows of both runs at the same time, up to `until`.
 std::vector<std::pair<std::size_t, std::size_t>> common_rows(const Trajectory& a, const Trajectory& b, double until) {
   std::vector<std::pair<std::size_t, std::size_t>> rows;
   for (std::size_t i = 0, j = 0; i < a.n_rows() && j < b.n_rows();) {
@@ -71,7 +71,8 @@ Difference measure(const Comparison& c, const Quantity& quantity, const std::vec
   return d;
 }
 
-// Relative to the peak; what is next to nothing, to `part` of the largest of its unit; where the second run has nothing of it at all, to the difference.
+// Relative to the peak; for negligible quantities, to `part` of the largest with the same unit; if the second run has none of it at all, to the
+// difference.
 void relate(std::vector<Difference>& list, double part) {
   std::map<std::string, double> largest;
   for (const Difference& d : list) largest[d.unit] = std::max(largest[d.unit], d.peak);
@@ -126,7 +127,7 @@ void add_coordinates(Comparison& c, const std::vector<std::pair<std::size_t, std
     Quantity quantity{column.name, "", {}};
     if (is_coordinate(column.name) && add_column(c, column.name, quantity)) c.coordinates.push_back(measure(c, quantity, rows));
   }
-  relate(c.coordinates, 1);  // what stands still is compared with what moves
+  relate(c.coordinates, 1);  // the scale of coordinates at rest is the largest moving one
 }
 
 void find_softness(const Model& model, Comparison& c) {
@@ -147,7 +148,7 @@ VariantLoad variant_load(const LoadSummary& load, const LoadSummary* base) {
   VariantLoad out{true, load};
   const LoadSummary none;
   const LoadSummary& from = base == nullptr ? none : *base;
-  // What is no larger than its own error is no measure for another.
+  // A value that does not exceed its own error is no basis for a relative change.
   const auto change = [&from](double x, double of) { return of > from.error_estimate ? (x - of) / of : std::numeric_limits<double>::quiet_NaN(); };
   out.peak_change = change(load.peak, from.peak);
   out.mean_change = change(load.mean, from.mean);
@@ -157,7 +158,7 @@ VariantLoad variant_load(const LoadSummary& load, const LoadSummary* base) {
   return out;
 }
 
-// Ideal joints know no equilibrium under loads: they start assembled where the compliant mechanism rests.
+// Ideal joints have no settled start: they are assembled where the compliant mechanism rests.
 void start_where_it_settles(const Model& model, Model& other) {
   const Assembly rest = start_of_run(model);
   other.simulate.start = Start::kAssembled;

@@ -1,4 +1,4 @@
-// Differences of two runs that are written down by hand, number by number.
+// Differences of two runs written down by hand.
 #include "pintle/compare.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-// A run of one joint A with a force and a couple, and a body that moves in x and turns. A row: t, fx, fy, m, x, angle.
+// A run of one joint A with a force and a couple, and a body that moves in x and turns. Columns: t, fx, fy, m, x, angle.
 Trajectory written(const std::vector<std::vector<double>>& rows) {
   Trajectory run;
   run.columns = {{"t", "s", ""}, {"joint.A.on_bar.fx[world]", "N", ""}, {"joint.A.on_bar.fy[world]", "N", ""}, {"joint.A.on_bar.m[world]", "N*m", ""},
@@ -51,7 +51,7 @@ TEST(ComparedRuns, ADifferenceIsThatOfTheVectors) {
   EXPECT_EQ(c.coordinates[1].digits, 15);
 }
 
-// A row that only one of the runs has says nothing, wherever it is; times that differ by rounding are the same row.
+// A row that only one of the runs has is ignored, wherever it is; times that differ by roundoff are the same row.
 TEST(ComparedRuns, OnlyCommonRowsCount) {
   const Trajectory all = written({{0, 1, 0, 0, 0, 0}, {1, 2, 0, 0, 0, 0}, {2, 3, 0, 0, 0, 0}, {3, 4, 0, 0, 0, 0}});
   const Trajectory some = written({{0.5, 99, 0, 0, 0, 0}, {1 + 1e-14, 2, 0, 0, 0, 0}, {2.5, 99, 0, 0, 0, 0}, {3, 4, 0, 0, 0, 0}, {4, 99, 0, 0, 0, 0}});
@@ -62,7 +62,7 @@ TEST(ComparedRuns, OnlyCommonRowsCount) {
   EXPECT_EQ(compared(all, apart).forces[0].rms, 0);  // no row in common
 }
 
-// The peak between the rows is the run's own.
+// The run's own peak may lie between rows.
 TEST(ComparedRuns, PeaksBetweenTheRowsCount) {
   Trajectory a = written({{0, 1, 0, 1, 0, 0}}), b = a;
   b.joints[0].peak = 20;
@@ -92,7 +92,7 @@ TEST(ComparedRuns, ACauseIsJudgedByBothErrors) {
   EXPECT_EQ(causes().first, Cause::kNotUnique);
 }
 
-// A force that is next to nothing beside another one is measured by a ten-thousandth of that one; a coordinate that stands still by the one that moves.
+// A force that is negligible compared with another is measured relative to a ten-thousandth of that one; a coordinate at rest relative to the moving one.
 TEST(ComparedRuns, NextToNothingIsMeasuredByTheLargest) {
   Trajectory a = written({{0, 1e4, 0, 0, 2, 0}}), b = written({{0, 1e4, 0, 0, 2, 0}});
   for (Trajectory* run : {&a, &b}) {
@@ -114,7 +114,7 @@ TEST(ComparedRuns, NextToNothingIsMeasuredByTheLargest) {
   ASSERT_EQ(c.couples.size(), 1u);
 }
 
-// Where the second run has nothing of a quantity, the difference is all there is.
+// If a quantity is zero in the second run, its difference is relative to itself.
 TEST(ComparedRuns, NothingAgainstSomethingIsAllOfIt) {
   const Comparison c = compared(written({{0, 0, 0, 4, 0, 0}}), written({{0, 0, 0, 0, 0, 0}}));
   EXPECT_EQ(c.couples[0].relative, 1);
@@ -131,7 +131,7 @@ Joint joint_with(const std::string& name, std::vector<std::pair<std::string, std
   return joint;
 }
 
-// The energy of a spring under its peak, force^2 / (2 stiffness): the softest of two stiffnesses, the fallback where none is stated, and the couple's beside it.
+// The energy of a spring under its peak, force^2 / (2 stiffness): the smaller of two stiffnesses, the default if none is stated, plus the couple's.
 TEST(ComparedRuns, SofterJointsHaveMoreOfTheEnergy) {
   Model model;
   model.joints = {joint_with("stiff", {{"stiffness", {4e6}}, {"angular_stiffness", {8}}}), joint_with("soft", {{"stiffness", {4e6, 1e6}}}),
@@ -146,7 +146,7 @@ TEST(ComparedRuns, SofterJointsHaveMoreOfTheEnergy) {
   }
   run.joints[0].has_moment = true;
   run.joints[0].peak_moment = 4;
-  run.joints[1].peak_moment = 1e9;  // of a joint that has none
+  run.joints[1].peak_moment = 1e9;  // of a joint without a moment
   const Comparison c = compare(model, run, run, Equations::kIdeal);
   ASSERT_EQ(c.softness.size(), 3u);
   const double soft = 4e6 / 2e6, stiff = 4e6 / 8e6 + 16.0 / 16, plain = 4e6 / 2e8, all = soft + stiff + plain;
@@ -188,10 +188,10 @@ TEST(ComparedVariants, ChangesAreOfTheFirstRun) {
   EXPECT_EQ(a[1].rms_change, 0);
   EXPECT_EQ(a[1].cause, Cause::kPhysical);
   EXPECT_EQ(a[2].cause, Cause::kNumerical);  // 3 N, errors of 1 N each
-  // What is no larger than its own error is no measure.
+  // A value that does not exceed its own error is no basis for a relative change.
   EXPECT_TRUE(std::isnan(v.joints[1].loads[1].peak_change));
   EXPECT_FALSE(v.joints[1].loads[2].there);
-  // A joint that the first run does not have.
+  // A joint missing in the first run.
   EXPECT_EQ(v.joints[2].joint, "new");
   EXPECT_FALSE(v.joints[2].loads[0].there);
   EXPECT_TRUE(v.joints[2].loads[1].there);

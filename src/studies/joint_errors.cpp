@@ -44,7 +44,7 @@ JointErrors::JointErrors(const Trajectory& truth, double radius) : truth_(truth)
   for (const LoadSummary& joint : truth.joints) {
     const std::string p = "joint." + joint.name + ".on_" + joint.second_body + ".";
     Joint j{joint.name, truth.column(p + "fx[world]"), truth.column(p + "fy[world]"), truth.column(p + "m[world]"), 0, 0};
-    j.peak = std::max(largest_size(truth, j.fx, j.fy), joint.peak);  // that of an impact lies between rows
+    j.peak = std::max(largest_size(truth, j.fx, j.fy), joint.peak);  // the peak of an impact lies between rows
     if (j.couple >= 0) j.peak_couple = std::max(largest_size(truth, j.couple, -1), joint.peak_moment);
     largest = std::max(largest, j.peak);
     largest_couple = std::max(largest_couple, j.peak_couple);

@@ -25,14 +25,14 @@ namespace pintle {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kWindowSteps = 20, kWindowPeriods = 3;  // of the running mean
-constexpr double kWindowMost = 0.25;                     // of the duration
-constexpr double kAboveTruth = 10, kTooCoarse = 0.3;     // errors between these say something of the order
+constexpr double kWindowSteps = 20, kWindowPeriods = 3;  // width of the running mean, in output steps and in periods
+constexpr double kWindowMost = 0.25;                     // upper limit on it, as a fraction of the duration
+constexpr double kAboveTruth = 10, kTooCoarse = 0.3;     // errors above kAboveTruth times that of the truth and below kTooCoarse are used for the order
 constexpr int kRepetitions = 5;
-constexpr double kShort = 0.05;                          // a run that is repeated, at most [s]
-constexpr double kStepsRatio = 2;                        // between the runs that it is taken from, at least
+constexpr double kShort = 0.05;                          // upper limit on the time of runs that are repeated [s]
+constexpr double kStepsRatio = 2;                        // lower limit on the ratio of steps between the runs from which the order is taken
 
-// Ways to keep constraints; the first is that of the truth.
+// Methods of enforcing constraints; the first is used for the truth.
 struct ConstraintMethod {
   const char* word;
   Equations equations;
@@ -167,7 +167,7 @@ class Study {
     return run;
   }
 
-  // Short runs are repeated, and the least time counts: what else the machine does only adds to it.
+  // Short runs are repeated, and the shortest time counts: other work of the machine only adds to it.
   void find_least_time(const std::string& method, double tolerance, SolverRun& run) const {
     const double first = run.seconds;
     for (int i = 1; i < kRepetitions && first < kShort; ++i) {
@@ -196,13 +196,14 @@ class Study {
     run.energy_drift = trajectory.energy.drift;
   }
 
-  // Least squares of log(error) over log(steps). Where stability bounds the steps they hardly change, and say nothing.
+  // Least squares of log(error) over log(steps). If stability limits the steps, their number hardly changes and gives
+  // no order.
   SolverOrder order_of(const std::string& method) const {
     SolverOrder order{method, 0, kUnknown};
     double sx = 0, sy = 0, sxx = 0, sxy = 0, least = 1e300, most = 0;
     for (const SolverRun& run : out_.runs) {
       const bool telling = run.method == method && run.end == SolverEnd::kCompleted &&
-                           (method != "radau" || run.tolerance >= kTight) &&  // the runs of one order only
+                           (method != "radau" || run.tolerance >= kTight) &&  // only runs of the same order
                            run.force_error > kAboveTruth * out_.truth.error_estimate && run.force_error < kTooCoarse;
       if (!telling) continue;
       const double x = std::log(run.steps), y = std::log(run.force_error);

@@ -1,4 +1,4 @@
-// The comparison of the methods: its measures on made-up signals, and a pendulum where the answers are known.
+// The comparison of methods: its error measures on synthetic signals, and a pendulum with known answers.
 #include "pintle/solvers.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(JointErrors, SmoothDriftIsNoVibration) {
   EXPECT_EQ(errors.force_error(drift).joint, "J");
 }
 
-// A window of an odd number of rows about two periods long leaves next to nothing of the vibration in the mean.
+// The mean over an odd number of rows about two periods long contains almost none of the vibration.
 TEST(JointErrors, VibrationIsMeasuredFromPeakToPeak) {
   const Trajectory truth = made_up(steady, 1, 0.2);
   const JointErrors::Worst v = JointErrors(truth, 1).vibration(made_up(shaking, 1, 0.2), 10);
@@ -87,7 +87,7 @@ TEST(CompareSolvers, ErrorsFallWithTheTolerance) {
     EXPECT_LT(run.position_error, study.runs[i - 1].position_error);
     EXPECT_TRUE(run.method == "radau" || run.steps > study.runs[i - 1].steps);
   }
-  // Methods whose tolerance is on positions have the joint forces worse by far.
+  // Methods with a tolerance on positions have far less accurate joint forces.
   EXPECT_LT(study.runs[1].force_error, 1e-2 * study.runs[4].force_error);
   ASSERT_EQ(study.orders.size(), 3U);
   EXPECT_GT(study.orders[1].order, 1.5);
@@ -129,7 +129,7 @@ TEST(CompareSolvers, RefusesWhatMakesNoSense) {
   EXPECT_THROW(compare_solvers(relative, {}), std::invalid_argument);
 }
 
-// Seven ways to keep the same constraints, against the first at a tighter tolerance.
+// Seven methods of enforcing the same constraints, against the first at a tighter tolerance.
 TEST(CompareSolvers, WaysToKeepConstraints) {
   Model ideal = stiff_pendulum();
   ideal.simulate.equations = Equations::kIdeal;

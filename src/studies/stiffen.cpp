@@ -27,12 +27,12 @@ namespace pintle {
 namespace {
 
 constexpr double kTenfold = 10;
-constexpr double kOwnError = 0.05;        // of the wanted agreement: tolerance of each run
-constexpr std::size_t kMostInfluences = 24;  // joints; more are not tried one by one
-constexpr double kGrowth = 5;             // of a peak per tenfold stiffness: it goes with the stiffness itself
+constexpr double kOwnError = 0.05;        // tolerance of each run, as a fraction of the wanted agreement
+constexpr std::size_t kMostInfluences = 24;  // with more joints than this they are not tried one by one
+constexpr double kGrowth = 5;             // if a peak grows by more than this per tenfold stiffness, it is proportional to the stiffness
 constexpr const char* kInterrupted = "interrupted";
-constexpr double kStiffEnough = 1e9;      // to see what a soft joint does, where no stiffness was found [N/m]
-constexpr double kNoLongerFalls = 0.5;            // of the change per step: no longer falling
+constexpr double kStiffEnough = 1e9;      // for finding the influence of soft joints if no stiffness was found [N/m]
+constexpr double kNoLongerFalls = 0.5;            // a change above this fraction of the previous step's is no longer falling
 
 double wanted_agreement(const StiffenRequest& request) { return 0.5 * std::pow(10.0, -request.digits); }
 
@@ -90,7 +90,7 @@ class Procedure {
     }
   }
 
-  // Lengths, masses, and which joints are soft by intention.
+  // Lengths, masses, and which joints are intentionally soft.
   void measure_mechanism() {
     const Assembly start = start_of_run(model_);
     length_ = arm_length(start.system, kinematics_at_rest(start.system, start.state.q));
@@ -117,7 +117,7 @@ class Procedure {
     }
   }
 
-  // The limit is that of a mechanism whose motors still give way.
+  // The limit is that of a mechanism whose motors are still compliant.
   void note_servos() {
     std::string names;
     for (const Motor& motor : model_.motors)
@@ -125,14 +125,14 @@ class Procedure {
     if (!names.empty()) out_.notes.push_back("servos are not stiffened (" + names + "): how far they give way is in the limit. With ideal joints they would follow exactly");
   }
 
-  // Where no joint has a stiffness that may be raised, no comparison would say anything.
+  // If no joint has a stiffness that may be raised, a comparison would be pointless.
   bool nothing_to_raise() {
     if (std::any_of(out_.joints.begin(), out_.joints.end(), [](const StiffenJoint& joint) { return !joint.kept; })) return false;
     out_.reason = "no joint has a stiffness to raise: all have laws of their own, or are softer than the starting stiffness; try --law joint.NAME=linear for those that are to be rigid";
     return true;
   }
 
-  // What ideal joints say of the motion: where it passes singular positions forces need not have a limit.
+  // Runs with ideal joints: if the motion passes singular positions, forces need not have a limit.
   void ask_ideal_joints() {
     Model ideal = model_;
     ideal.simulate.equations = Equations::kIdeal;
@@ -150,7 +150,7 @@ class Procedure {
     }
   }
 
-  // A stiffness with the damping that goes with it; angles by the mechanism's length.
+  // Sets a stiffness with its damping; those of angles are scaled by the mechanism's length.
   void set(StiffenJoint& joint, double stiffness) const {
     const auto mass_of = [this](const std::string& name) {
       const auto it = mass_.find(name);
@@ -171,7 +171,7 @@ class Procedure {
       if (!joint.kept) set(joint, stiffness);
   }
 
-  // False when there is nothing to go on with; the reason then says why.
+  // False if the procedure cannot continue; the reason then says why.
   bool run(const std::vector<StiffenJoint>& joints, double stiffness, Trajectory& out) {
     out = simulate(stiffened(model_, joints), observer_);
     if (out.outcome == Outcome::kInterrupted) out_.reason = kInterrupted;
@@ -187,7 +187,7 @@ class Procedure {
       set_all(k);
       if (!run(out_.joints, k, now)) {
         if (!out_.steps.empty() || out_.reason == kInterrupted) return;
-        out_.notes.push_back(std::exchange(out_.reason, ""));  // too soft for this mechanism: go on
+        out_.notes.push_back(std::exchange(out_.reason, ""));  // too soft for this mechanism: continue
         continue;
       }
       add_step(k, out_.steps.empty() ? now : before, now);
@@ -203,7 +203,8 @@ class Procedure {
     }
   }
 
-  // Whether something that still changes does so by nearly as much as in the step before. A peak that goes to zero changes by as large a part of itself in every step.
+  // Whether some quantity still changes by nearly as much as in the previous step. The changes are absolute, because a peak that goes to zero changes by the same
+  // fraction of itself in every step.
   bool changes_as_before(std::size_t i) const {
     const StiffenStep &now = out_.steps[i], &before = out_.steps[i - 1];
     for (std::size_t q = 0; q < now.changes.size(); ++q)
@@ -211,7 +212,7 @@ class Procedure {
     return false;
   }
 
-  // Two steps in a row that changed nearly as much as the one before each; one where the motion is known to be singular.
+  // Two successive steps that each changed nearly as much as the previous one; one such step if the motion is known to be singular.
   bool no_longer_falls() const {
     const std::size_t n = out_.steps.size();
     const auto still = [this](std::size_t i) { return changes_as_before(i); };
@@ -241,7 +242,7 @@ class Procedure {
     out_.steps.push_back(std::move(step));
   }
 
-  // theory/ideal Eq. (4.1): what falls as 1/stiffness is taken off.
+  // theory/ideal Eq. (4.1): the part that falls as 1/stiffness is subtracted.
   void find_limits() {
     const std::size_t n = out_.steps.size();
     const auto extrapolated = [this](std::size_t step, std::size_t i) {
@@ -269,7 +270,7 @@ class Procedure {
     return worst;
   }
 
-  // Joints whose compliance matters little may be softer. Each joint's influence goes as 1 / its stiffness.
+  // Joints whose compliance matters little may be softer. Each joint's influence is proportional to 1 / its stiffness.
   void relax() {
     const double k = out_.stiffness;
     const auto free = static_cast<std::size_t>(std::count_if(out_.joints.begin(), out_.joints.end(), [](const StiffenJoint& j) { return !j.kept; }));
@@ -312,7 +313,7 @@ class Procedure {
     out_.notes.push_back("softening individual joints would lose digits: the same stiffness is recommended for all");
   }
 
-  // What it would change if the joints that are soft by intention were stiff as well.
+  // The change if the intentionally soft joints were stiff as well.
   void weigh_kept() {
     std::string names;
     std::vector<StiffenJoint> stiff = out_.joints;
@@ -342,7 +343,7 @@ class Procedure {
     out_.reason = before.empty() ? verdict : before + "; " + verdict;
   }
 
-  // Names of joints that stick at the end of the stiffest run.
+  // Names of joints that are stuck at the end of the stiffest run.
   std::string stuck_at_end() const {
     constexpr std::string_view kBefore = "joint.", kAfter = ".stuck";
     std::string names;
@@ -354,7 +355,7 @@ class Procedure {
     return names;
   }
 
-  // Why no stiffness was enough.
+  // Explains why no stiffness was sufficient.
   void explain() {
     const StiffenStep &last = out_.steps.back(), &before = out_.steps[out_.steps.size() - 2];
     const auto worst = static_cast<std::size_t>(std::find(out_.quantities.begin(), out_.quantities.end(), last.where) - out_.quantities.begin());
@@ -383,7 +384,7 @@ class Procedure {
   Stiffening out_;
   Trajectory stiffest_;
   double length_ = 1;
-  std::set<std::string> as_it_is_;      // joints whose laws stiffness does not scale
+  std::set<std::string> as_it_is_;      // joints whose laws do not scale with stiffness
   std::map<std::string, double> mass_;  // effective, by joint and by "joint.angle" [kg], [kg*m^2]
   std::vector<CheckRedundancy> redundancies_;
   std::vector<std::string> ideal_notes_;

@@ -1,4 +1,5 @@
-// Blocks that hang at rest on a pin beside a spring of stiffness s: a pin of stiffness k carries W / (1 + s/k), so that every number of the procedure is known.
+// Blocks that hang at rest on a pin parallel to a spring of stiffness s: a pin of stiffness k carries W / (1 + s/k), so that every number of the procedure is
+// known.
 #include "pintle/stiffen.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double kWeight = 100;  // of each block, 10 kg [N]
 
-// The springs of the pins are of 1.1e3 and 1e4 N/m; `second` are keys of the second pin.
+// The springs parallel to the pins have 1.1e3 and 1e4 N/m; `second` holds keys of the second pin.
 Model hanging_blocks(const std::string& second = "") {
   return parse_model(R"(
 format = 1
@@ -86,7 +87,7 @@ TEST(StiffenByHand, RaisesTenfoldUntilTheDigitsAgree) {
   EXPECT_EQ(s.limits[1].digits, 3);  // 9e-5
 }
 
-// Each pin may lose what half the wanted agreement allows: A to 1e7, B to 1e8 N/m, where they change the forces by 1.1e-4 and 1e-4.
+// Pins are softened within half the wanted agreement: A to 1e7, B to 1e8 N/m, where they change the forces by 1.1e-4 and 1e-4.
 TEST(StiffenByHand, SoftensThePinsThatMatterLittle) {
   StiffenRequest request;
   request.digits = 3;
@@ -104,7 +105,8 @@ TEST(StiffenByHand, SoftensThePinsThatMatterLittle) {
   EXPECT_EQ(s.kept_influence, 0);
 }
 
-// Of two runs the limit's error is its distance from the last; of three, a tenth of what the last one moved it; and the runs' own in both cases.
+// With two runs the limit's error is its distance from the last one; with three, a tenth of the change by the last one. The runs' own errors are added in both
+// cases.
 TEST(StiffenByHand, TheLimitStatesItsError) {
   StiffenRequest request;
   request.digits = 7;
@@ -135,7 +137,7 @@ TEST(StiffenByHand, MotionNeedsLess) {
   EXPECT_DOUBLE_EQ(s.stiffness, 1e7);  // the blocks, 1 m below, sink by 1e-5 m; at 1e6 N/m by 1e-4 m
 }
 
-// Rubber is soft by intention, whether its stiffness is stated or not (1e5 N/m then).
+// Rubber is intentionally soft, whether its stiffness is stated or not (then 1e5 N/m).
 TEST(StiffenByHand, RubberIsKept) {
   StiffenRequest request;
   request.digits = 3;
@@ -146,7 +148,7 @@ TEST(StiffenByHand, RubberIsKept) {
   EXPECT_EQ(rubber.stated, 1e5);
   EXPECT_EQ(rubber.stiffness, 1e5);
   EXPECT_EQ(rubber.damping, 500);
-  // Without rubber B would carry all of the weight, a tenth more than with it.
+  // Without rubber B would carry the whole weight, a tenth more than with it.
   EXPECT_EQ(s.kept_where, "B");
   EXPECT_NEAR(s.kept_influence, 0.1, 1e-3);
   EXPECT_NE(s.reason.find("B: its own flexibility matters"), std::string::npos) << s.reason;
@@ -164,7 +166,7 @@ TEST(StiffenByHand, OnlyTheChosenJointsCount) {
   EXPECT_DOUBLE_EQ(s.stiffness, 1e8);  // from 1e7 it changes by 1e-4
 }
 
-// Of critical: 2 zeta sqrt(k m). A weld holds the angle as well, by the mechanism's length.
+// As a fraction of critical damping: 2 zeta sqrt(k m). A weld also holds the angle, scaled by the mechanism's length.
 TEST(StiffenByHand, DampingMayBeOfCritical) {
   StiffenRequest request;
   request.digits = 3;
@@ -186,7 +188,7 @@ TEST(StiffenByHand, AnglesAreHeldByTheMechanismsLength) {
   const Model stiff = stiffened(model, s.joints);
   EXPECT_EQ(stiff.joints[0].law.values.at("angular_stiffness").front(), weld.angular_stiffness);
   EXPECT_EQ(stiff.joints[1].law.values, stiffened(model, {s.joints[1]}).joints[1].law.values);
-  EXPECT_EQ(stiff.joints[1].law.values.at("angular_stiffness"), model.joints[1].law.values.at("angular_stiffness"));  // a pin holds none
+  EXPECT_EQ(stiff.joints[1].law.values.at("angular_stiffness"), model.joints[1].law.values.at("angular_stiffness"));  // a pin holds no angle
 }
 
 TEST(StiffenByHand, WithNothingToRaiseItSaysSo) {

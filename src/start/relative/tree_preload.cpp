@@ -24,7 +24,7 @@ double largest_size(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs()
 
 const Law& law_of(const TreeInstant& at, std::size_t l) { return at.system().joints[at.tree().laws()[l]].law; }
 
-// The slowest frequency that a law's stiffness gives to the whole tree by itself.
+// The lowest frequency that the stiffness of a single law gives to the whole tree.
 double slowest_joint(const TreeInstant& at) {
   const MatrixXd mobility = at.A() * at.H().llt().solve(at.A().transpose());
   double slowest = std::numeric_limits<double>::infinity();
@@ -59,7 +59,7 @@ bool TreeInverseDynamics::find(TreeState& state) {
   return true;
 }
 
-// theory/assembly Eq. (3.5). Whether there is any.
+// theory/assembly Eq. (3.5). Returns whether there is any friction.
 bool TreeInverseDynamics::push_by_friction(TreeState& state) {
   bool any = false;
   VectorXd now, now_rate;
@@ -113,7 +113,8 @@ void TreeInverseDynamics::move_onto_gaps(TreeState& state) {
   }
 }
 
-// As balance_start: what the bodies cannot take, as in redundant joints, is what their positions and velocities make it.
+// As balance_start: gaps that the bodies cannot assume, as in redundant joints, follow from their positions and
+// velocities.
 void TreeInverseDynamics::balance(TreeState& state) {
   at_.place(state.t, state.y, state.u);
   const double rounding = kLastBits * largest_coordinate(at_.pose().q), same_rate = kFits * largest_size(state.u), same_force = kFits * largest_size(state.force);
@@ -157,7 +158,7 @@ void start_tree_forces(TreeInverseDynamics& forces, bool preload, TreeState& sta
 
 namespace {
 
-// The slow motion from `start` over `span`: one column of every curve at each node.
+// The slow motion from `start` over `span`: each curve has one column per node.
 class TreeSlowManifold {
  public:
   TreeSlowManifold(const System& system, const JointTree& tree, double span, const TreeState& start)
@@ -170,7 +171,8 @@ class TreeSlowManifold {
     }
   }
 
-  // Follows the motion with the present gap accelerations; gaps from the forces that it takes. Relative change.
+  // Follows the motion with the present gap accelerations, and takes new gaps from the forces that it needs. Returns
+  // their relative change.
   double sweep() {
     TreeState at = start_;
     at.gap = gap_.col(0);
@@ -209,7 +211,7 @@ class TreeSlowManifold {
   }
 
  private:
-  // One classical Runge-Kutta step of the motion whose gap accelerations are given.
+  // One classical Runge-Kutta step of the motion with given gap accelerations.
   void follow(TreeState& at, double s0, double s1) {
     const double h = span_ * (s1 - s0);
     const TreeState begin = at;

@@ -1,4 +1,4 @@
-// Preload and slow manifold at the start, over a joint tree: the counterpart of start_forces.h and slow_manifold.h for free
+// Preload and slow manifold at the start, over a joint tree: the counterpart of preload.h and slow_manifold.h for free
 // bodies. theory/tree section 8.
 #pragma once
 
@@ -6,19 +6,20 @@
 
 namespace pintle {
 
-/// The forces that a given motion takes of the joints that stay laws, and the gaps that carry them.
+/// The forces that a given motion needs from the joints that stay laws, and the gaps that carry them.
 class TreeInverseDynamics {
  public:
   TreeInverseDynamics(const System& system, const JointTree& tree) : at_(system, tree) {}
 
-  /// w and forces at y, u for which the gaps accelerate as state.accel says. False when no joint is stiff. Eq. (6.3).
+  /// Finds w and the forces at y, u for which the gaps have the accelerations state.accel. False if no joint is stiff. Eq.
+  /// (6.3).
   bool find(TreeState& state);
-  /// The gaps at which the laws give state.force at state.rate. False when one has been found not to carry its force.
+  /// Finds the gaps at which the laws give state.force at state.rate. False if a law turns out not to carry its force.
   bool find_gaps(TreeState& state) const;
   /// Moves y and u so that the bodies have the gaps and rates of the state.
   void move_onto_gaps(TreeState& state);
-  /// What the laws really give at the state's gaps, and the accelerations that go with it. Gaps that no stiffness holds, and
-  /// those that no motion can close, are those of the bodies.
+  /// Finds the actual forces of the laws at the state's gaps, and the corresponding accelerations. Gaps without stiffness,
+  /// and those that no motion can close, are taken from the bodies.
   void balance(TreeState& state);
 
   TreeInstant& instant() { return at_; }
@@ -31,10 +32,10 @@ class TreeInverseDynamics {
   TreeProjector projector_;
 };
 
-/// Completes `state` (t, y, u given): without `preload` the gaps are those of the bodies.
+/// Completes `state` (t, y, u given). Without `preload` the gaps are those of the bodies.
 void start_tree_forces(TreeInverseDynamics& forces, bool preload, TreeState& state);
 
-/// As move_onto_slow_manifold, over a tree.
+/// As move_onto_slow_manifold, but over a tree.
 double move_tree_onto_slow_manifold(const System& system, const JointTree& tree, double span, TreeState& state);
 
 }  // namespace pintle

@@ -16,10 +16,10 @@ namespace {
 
 using S = Planar;
 
-constexpr double kStiffAtLeast = 1e12;    // of a tree joint's law while it is assembled, and at least that of every other [N/m]
-constexpr double kRelaxation = 1e-5;      // damping of such a law over its stiffness [s]
+constexpr double kStiffAtLeast = 1e12;    // lower limit on the stiffness of a tree joint's law during assembly, which is also at least that of every other joint [N/m]
+constexpr double kRelaxation = 1e-5;      // ratio of such a law's damping to its stiffness [s]
 
-// With laws for the tree's joints so stiff that they give way by nothing that matters.
+// With laws for the tree's joints that are stiff enough for their deflection to be negligible.
 System stiffened(System system, const JointTree& tree) {
   double stiffest = kStiffAtLeast, size = 0;
   for (const int j : tree.laws())
@@ -46,7 +46,7 @@ void write(TreeInverseDynamics& forces, const TreeState& from, State& to) {
   forces.instant().write(from, from.w, to);
 }
 
-// As free bodies do: the start of sweeps that have not converged is none, and joints may ring.
+// As for free bodies: a start from sweeps that have not converged is rejected, and joints may ring.
 bool put_onto_slow_manifold(const JointTree& tree, const System& system, double span, TreeState& start) {
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
     TreeState attempt = start;

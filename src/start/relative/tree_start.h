@@ -5,9 +5,9 @@
 
 namespace pintle {
 
-/// Assembles a copy of `system`, which build_system has made from `model`, whose tree joints are very stiff laws, takes positions and
-/// rates over into the tree's coordinates and, for start = "assembled", puts the joints that stay laws on their slow motion. The
-/// assembly has the joints' own laws again.
+/// Assembles a copy of `system`, which build_system has made from `model`, with very stiff laws for the tree's joints. Converts
+/// positions and rates into the tree's coordinates and, for start = "assembled", puts the joints that stay laws on their slow motion.
+/// The returned assembly has the joints' own laws again.
 Assembly start_over_tree(const Model& model, const System& system);
 
 }  // namespace pintle
