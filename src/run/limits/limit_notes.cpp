@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -18,6 +19,7 @@ namespace {
 constexpr int kHalvings = 40;                                  // of the step in which a limit is reached
 constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // tolerance of the steps that find the instant, at least; at most
 constexpr double kLooks = 2000;                                // of a run that is made again, for a limit, at most
+constexpr double kFarBehind = 0.1;                              // lag of a motor that is worth a note, as a fraction of the travel asked of it
 constexpr double kSameLimit = 1e-6;                            // between two values of a coordinate that are one [rad or m]
 constexpr double kLittle = 0.01;                               // of the duration: how soon after a run that has stopped its drive would be at a limit
 
@@ -150,14 +152,41 @@ std::optional<Finding> look_at(const System& system, const State& start, const S
   return std::nullopt;
 }
 
+// The range of values that a drive is asked to take up to `t_end` [rad or m].
+double asked_travel(const JointData& drive, double t_end) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (double i = 0; i <= kLooks; ++i) {
+    const double value = target_of(drive, i / kLooks * t_end)[0];
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  return most - least;
+}
+
+// A motor whose spring yields by a good part of the travel asked of it: the motion is not the one that was meant. Empty otherwise.
+std::string note_on_lag(const System& system, const Trajectory& run, const DrivePeak<Planar>& peak) {
+  const JointData& drive = system.joints[static_cast<std::size_t>(peak.joint)];
+  if (drive.servo < 0 || run.outcome == Outcome::kFailed || run.outcome == Outcome::kEnergyOpen) return "";
+  const double lag = std::abs(peak.lag), travel = asked_travel(drive, run.t_end);
+  if (!(travel > 0 && lag > kFarBehind * travel)) return "";
+  const bool angle = drive.driven == 2;
+  const double unit = angle ? 360 / kTurn : 1000;
+  const char* unit_name = angle ? "deg" : "mm";
+  return fmt::format("motor {} is {:.3g} {} from where it should be at t = {:.4g} s, when it pushes with {:.5g} {}: {:.2g} of the {:.3g} {} that it travels. Raise its stiffness, unless it is meant to yield", drive.name, lag * unit,
+                     unit_name, peak.t, peak.effort, angle ? "N*m" : "N", lag / travel, travel * unit, unit_name);
+}
+
 }  // namespace
 
 std::vector<std::string> limit_notes(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run, const ForceRecorder& recorder) {
   std::vector<Finding> findings;
+  std::vector<std::string> lags;
   if (recorder.drive_peaks().empty()) return {};
   const Vecs last = places(recorder.last_motions());
-  for (const DrivePeak<Planar>& peak : recorder.drive_peaks())
+  for (const DrivePeak<Planar>& peak : recorder.drive_peaks()) {
     if (auto finding = look_at(system, start, settings, run, last, peak)) findings.push_back(std::move(*finding));
+    else if (std::string lag = note_on_lag(system, run, peak); !lag.empty()) lags.push_back(std::move(lag));
+  }
   std::vector<std::string> notes;
   const Arrival arrival(system, start, settings, run);
   for (Finding& finding : findings) {
@@ -165,6 +194,7 @@ std::vector<std::string> limit_notes(const System& system, const State& start, c
     if (finding.pushed) arrival.refine(finding);
     notes.push_back(note(system, finding));
   }
+  notes.insert(notes.end(), lags.begin(), lags.end());
   return notes;
 }
 
