@@ -10,7 +10,7 @@ template <class S>
 bool acts_in_body_axes(const BasicLoadData<S>& load) { return load.applied && load.at.b == kGround; }
 
 /// The way of a body's point along an axis of the body, component parameters[0] of the point's frame F, from the pose of the ground in it: the velocity of
-/// F's origin. It is no rate of a function of the pose, so that its value is 0 and the derivative of its gradient not symmetric. theory/joints Eq. (4.7)
+/// F's origin. It is no rate of a function of the pose, so that its value is 0 and the derivative of its gradient not symmetric. theory/joints Eq. (4.8)
 inline GapFunction way_in_body_axes(const Planar::Vec& z, const double* parameters) {
   GapFunction g;
   const bool along_y = parameters[0] > 0;

@@ -98,12 +98,13 @@ bool IdealStepper::step(double t_end) {
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
+      if (jump_ahead) failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" hold a motor or force where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump_)]));
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = step_ratio(e);
-    const bool jumps = e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e) && crosses_jump();
-    jump_ahead = jump_ahead || jumps;
+    if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e))
+      if (const int crossed = crossed_jump(); crossed >= 0) jump_ = crossed, jump_ahead = true;
     // Over the jump; or up to where nothing but rounding is left of the way to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
@@ -141,9 +142,9 @@ double IdealStepper::share_of_step(double h, double t_end) {
   return bends_.share_of_step(begin_.t, h, t_end, begin_m_, stage_m_);
 }
 
-// The embedded error of a jump does not fall with the step; what it does to velocities does. A step may begin at one, as that of t = 0 does where a motor starts.
-bool IdealStepper::crosses_jump() const {
-  if (!system_.has_branches()) return false;
+// The switching function that the step crosses, or starts at; -1: none. The embedded error of a jump does not fall with the step; what it does to velocities does. A step may begin at one, as that of t = 0 does where a motor starts.
+int IdealStepper::crossed_jump() const {
+  if (!system_.has_branches()) return -1;
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
@@ -152,7 +153,9 @@ bool IdealStepper::crosses_jump() const {
     return value;
   };
   const std::vector<double> from = side(begin_), to = side(stage_);
-  return !same_sides(from, to) || std::any_of(from.begin(), from.end(), [](double x) { return x == 0; });
+  for (std::size_t f = 0; f < from.size(); ++f)
+    if (from[f] == 0 || !same_sides(std::span(&from[f], 1), std::span(&to[f], 1))) return static_cast<int>(f);
+  return -1;
 }
 
 // Puts the stage onto the branch of the motion: where the branch's tangent at the start of the step says as much as the stage. The nearest

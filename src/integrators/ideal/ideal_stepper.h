@@ -53,7 +53,7 @@ class IdealStepper final : public Stepper {
   bool finish(double t, double h);
   double error(double h);
   double share_of_step(double h, double t_end);
-  bool crosses_jump() const;
+  int crossed_jump() const;
   void grow_scale();
   void foresee_loads(double h);
   void raise_above_rounding();
@@ -84,6 +84,7 @@ class IdealStepper final : public Stepper {
   LoadScale scale_;
   Counters counters_;
   std::string failure_;
+  int jump_ = -1;  // switching function that a step was shortened for last
   std::vector<std::string> remarks_;
   double most_independent_ = 0, independence_ = 0;  // the largest met; that at the end
   double least_independence_ = 0;                   // in the stages
