@@ -140,7 +140,7 @@ TEST(Distance, HasADirectionEvenAtZero) {
   EXPECT_TRUE(g.hessian.allFinite());
 }
 
-// Centres 0.1 m further apart open an external mesh, and close an internal one; a pinion 0.1 m further from its rack opens it on either side.
+// Centres 0.1 m farther apart open an external mesh, and close an internal one; a pinion 0.1 m farther from its rack opens it on either side.
 TEST(Mesh, OpensAsItsCentresSeparate) {
   EXPECT_NEAR((Mesh{1, 2, 1, 0, true}).opening({0, 3.1, 0.4}).gap, 0.1, 1e-15);
   EXPECT_NEAR((Mesh{2, 1, -1, 0, true}).opening({0, 1.1, 0.4}).gap, -0.1, 1e-15);

@@ -80,7 +80,7 @@ ParseProblem unexpected_comma(std::string_view text, std::size_t at) {
           between_digits ? "write decimals with a point" : "one expression for each value"};
 }
 
-// The first few names that may stand here.
+// The first few names that are possible here.
 std::string known_names(const ParseScope& scope) {
   constexpr std::size_t kShown = 8;
   std::vector<std::string> names;
