@@ -22,8 +22,7 @@ struct CheckTopology {
   std::vector<std::vector<std::string>> floating;  ///< groups of bodies that no joint ties to the ground
 };
 
-/// The number of independent motions. Ranks are of the scaled constraint Jacobian: angles times `length`, rows of unit
-/// norm.
+/// The number of independent motions. Ranks are of the scaled constraint Jacobian: angles times `length`, rows of unit norm.
 struct CheckMobility {
   int freedoms = 0;            ///< 3 per body
   int constraints = 0;         ///< gap components that a joint's law resists; slack ropes and servos are not among them
@@ -61,8 +60,7 @@ struct CheckGear {
   std::string unit;  ///< "-" or "m/rad"
 };
 
-/// In a train of mobility 1: the rate of a joint's free coordinate per unit rate of the reference coordinate, at the
-/// assembled position.
+/// In a train of mobility 1: the rate of a joint's free coordinate per unit rate of the reference coordinate, at the assembled position.
 struct CheckTransmission {
   std::string joint, coordinate;
   double ratio = 0;

@@ -33,8 +33,7 @@ struct Difference {
   Cause cause = Cause::kNone;
 };
 
-/// The share of a joint in the elastic energy that all joints store at their peaks: a measure of which joint deflects
-/// most [-].
+/// The share of a joint in the elastic energy that all joints store at their peaks: a measure of which joint deflects most [-].
 struct Softness {
   std::string joint;
   double share = 0;

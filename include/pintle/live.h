@@ -1,5 +1,4 @@
-// Live motion, advanced in small increments and pulled by the user while it moves; and a linkage at rest, moved by
-// hand. theory/live.
+// Live motion, advanced in small increments and pulled by the user while it moves; and a linkage at rest, moved by hand. theory/live.
 #pragma once
 
 #include <array>
@@ -62,8 +61,7 @@ class LiveMotion {
   std::unique_ptr<Motion> motion_;
 };
 
-/// A model without masses, forces and motors: the joints are closed while one body is held at a point and moved with
-/// it.
+/// A model without masses, forces and motors: the joints are closed while one body is held at a point and moved with it.
 class KinematicDrag {
  public:
   /// Throws std::invalid_argument for names that do not exist. Whether the joints close is reported by `assemble`.

@@ -46,16 +46,14 @@ struct MarkerRef {
   friend bool operator==(const MarkerRef&, const MarkerRef&) = default;
 };
 
-/// A joint law by its word in the catalog, with its parameters by name; a list has one value for each gap component it
-/// covers.
+/// A joint law by its word in the catalog, with its parameters by name; a list has one value for each gap component it covers.
 struct LawChoice {
   std::string word = "linear";
   std::map<std::string, std::vector<double>> values;
   friend bool operator==(const LawChoice&, const LawChoice&) = default;
 };
 
-/// The bearing of a pin: a rolling bearing by its catalogue data, a plain one by its size. Values that are not stated are
-/// absent. theory/bearing_life
+/// The bearing of a pin: a rolling bearing by its catalogue data, a plain one by its size. Values that are not stated are absent. theory/bearing_life
 struct Bearing {
   std::string type;  ///< "ball" or "roller"; empty: not stated
   std::optional<double> dynamic_load_rating{};  ///< C of ISO 281 [N]
@@ -147,8 +145,7 @@ enum class MotorKind { kEffort, kSpeed, kPosition };
 
 /// A motor in a joint's free coordinate. kEffort: torque or force as an expression of t, the coordinate ("angle" or
 /// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: an expression of t or a constant; a
-/// servo moves the coordinate at this speed, starting from its assembled value. kPosition: an expression of t, followed
-/// by a servo.
+/// servo moves the coordinate at this speed, starting from its assembled value. kPosition: an expression of t, followed by a servo.
 struct Motor {
   std::string name;
   std::string joint;

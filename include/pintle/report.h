@@ -12,8 +12,7 @@ namespace pintle {
 struct ReportOptions {
   /// Limit on the numbers that the page holds for its pictures (eight bytes each, a third more as text). A longer run is
   /// thinned in time, and the page says so. The tables stay complete, and the instants of the largest joint forces are kept,
-  /// which may add half as many rows again. A mechanism with very many columns keeps 50 rows, however many numbers that
-  /// makes.
+  /// which may add half as many rows again. A mechanism with very many columns keeps 50 rows, however many numbers that makes.
   std::size_t most_values = 750'000;
 };
 

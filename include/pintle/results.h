@@ -1,5 +1,4 @@
-// A run on disk and on the console: writing the run folder (series.csv, summary.json, the model), the summary table, and
-// reading the folder back.
+// A run on disk and on the console: writing the run folder (series.csv, summary.json, the model), the summary table, and reading the folder back.
 #pragma once
 
 #include <filesystem>
@@ -62,8 +61,7 @@ RunRecord read_run(const std::filesystem::path& folder);
 /// is gone or differs from what was run.
 std::string read_model_text(const std::filesystem::path& folder, const RunStamp& stamp);
 
-/// The text of a file that the model of a run names, from the run's folder. Throws FileError if it is gone or differs from what
-/// was run.
+/// The text of a file that the model of a run names, from the run's folder. Throws FileError if it is gone or differs from what was run.
 std::string read_model_file(const std::filesystem::path& folder, const ModelFile& file);
 
 /// The text of summary.json: everything in the trajectory but the values.

@@ -10,8 +10,7 @@
 
 namespace pintle {
 
-/// The words of the methods that are compared on a model with these equations: kNewtonian, or equations with constraints. Empty for
-/// all others.
+/// The words of the methods that are compared on a model with these equations: kNewtonian, or equations with constraints. Empty for all others.
 std::vector<std::string> solver_methods(Equations equations);
 
 struct SolverStudyOptions {

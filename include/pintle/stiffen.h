@@ -1,5 +1,4 @@
-// Which stiffness is stiff enough: the paper's procedure (section 8), with the extrapolated limit of ideal joints and
-// its error.
+// Which stiffness is stiff enough: the paper's procedure (section 8), with the extrapolated limit of ideal joints and its error.
 #pragma once
 
 #include <optional>
@@ -62,8 +61,7 @@ struct Stiffening {
   std::vector<std::string> notes;
 };
 
-/// Runs `model` repeatedly with increasing joint stiffness. Throws AssemblyError, and InputError for a joint that does
-/// not exist.
+/// Runs `model` repeatedly with increasing joint stiffness. Throws AssemblyError, and InputError for a joint that does not exist.
 Stiffening stiffen(const Model& model, const StiffenRequest& request, const Observer& observer = {});
 
 /// The model with the recommended values in its joints.

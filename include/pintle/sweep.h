@@ -72,8 +72,7 @@ struct SweepOutcome {
   SweepProgress progress;
 };
 
-/// Computes the samples that FILE and its journal do not hold yet. Throws InputError for errors in the plan or the model,
-/// and FileError.
+/// Computes the samples that FILE and its journal do not hold yet. Throws InputError for errors in the plan or the model, and FileError.
 SweepOutcome sweep(const SweepRequest& request, const SweepRun& run, const SweepObserver& observer = {});
 
 /// Reads a finished file. Throws FileError.

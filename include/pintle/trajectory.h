@@ -1,5 +1,4 @@
-// The result of a run: columns with name, unit and meaning; the energy account; the accuracy of every joint force;
-// counters.
+// The result of a run: columns with name, unit and meaning; the energy account; the accuracy of every joint force; counters.
 #pragma once
 
 #include <array>
@@ -129,8 +128,7 @@ struct JointWear {
   std::vector<double> bush, pin;  ///< [N*m]
 };
 
-/// How far a pin has turned in its bush and under which force, from curves within the steps. theory/bearing_life
-/// section 1
+/// How far a pin has turned in its bush and under which force, from curves within the steps. theory/bearing_life section 1
 struct PinDuty {
   std::string joint;
   double path = 0, swing = 0;       ///< angle, both directions added up; from the smallest angle to the largest [rad]

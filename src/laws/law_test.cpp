@@ -1,5 +1,4 @@
-// Properties that every law must have, at random gaps, rates and states. The battery runs over the laws of the list, with their
-// typical() parameters.
+// Properties that every law must have, at random gaps, rates and states. The battery runs over the laws of the list, with their typical() parameters.
 #include "laws/law.h"
 
 #include <gtest/gtest.h>

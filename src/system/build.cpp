@@ -278,8 +278,7 @@ class Builder {
     for (int component = 0; component < 3; ++component)
       if (!along[component]->variables().empty() || along[component]->value({}) != 0) add_effort(force, on, component, *along[component]);
   }
-  // Along the position of the point as seen from the ground, or that of the ground as seen from the point in its body's axes; or
-  // along the angle.
+  // Along the position of the point as seen from the ground, or that of the ground as seen from the point in its body's axes; or along the angle.
   void add_effort(const AppliedForce& force, int on, int component, const Expression& law) {
     LoadData load;
     load.name = force.name;

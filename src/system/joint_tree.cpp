@@ -277,8 +277,7 @@ void JointTree::jacobian(const TreePose& pose, Eigen::MatrixXd& J) const {
   }
 }
 
-// From the pivot of a body's turning coordinate to its centre of mass: the arm of (2.2) for S. Zero if there is no such
-// coordinate.
+// From the pivot of a body's turning coordinate to its centre of mass: the arm of (2.2) for S. Zero if there is no such coordinate.
 S::Point JointTree::lever(const TreePose& pose, int body) const {
   const Link& link = link_[body];
   if (link.joint < 0 || link.turn < 0) return S::Point::Zero();

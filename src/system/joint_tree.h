@@ -44,8 +44,7 @@ class JointTree {
   bool in_tree(int joint) const { return in_tree_[joint]; }
   /// No joint is replaced by coordinates: the bodies' own coordinates are all there are.
   bool all_free() const { return laws_.size() == in_tree_.size(); }
-  /// One line for each ideal joint that has been opened, with its loop or the reason; one for the joints replaced by
-  /// coordinates.
+  /// One line for each ideal joint that has been opened, with its loop or the reason; one for the joints replaced by coordinates.
   std::vector<std::string> notes() const;
 
   /// Coordinates of the bodies' positions. Eq. (1.2).
@@ -57,8 +56,7 @@ class JointTree {
   void place(const Eigen::VectorXd& y, const Eigen::VectorXd& u, TreePose& pose) const;
   /// Accelerations of the bodies, u' = w. Eq. (2.3).
   void accelerate(const TreePose& pose, const Eigen::VectorXd& w, Vecs& a) const;
-  /// on_coordinates = J' on_bodies; on_bodies becomes the total on each body and all it carries, about its centre of mass. Eq.
-  /// (3.1).
+  /// on_coordinates = J' on_bodies; on_bodies becomes the total on each body and all it carries, about its centre of mass. Eq. (3.1).
   void gather(const TreePose& pose, Vecs& on_bodies, Eigen::VectorXd& on_coordinates) const;
   /// The same for several columns, with three rows for each body.
   void gather(const TreePose& pose, Eigen::MatrixXd& on_bodies, Eigen::MatrixXd& on_coordinates) const;

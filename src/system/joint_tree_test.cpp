@@ -180,8 +180,7 @@ TEST_P(JointTrees, ForcesChangeOnCoordinatesByTheGeometricStiffness) {
   }
 }
 
-// M a = Q + G' f for every body separately, with f of the tree's joints from the inward pass, when the coordinates' equations
-// hold.
+// M a = Q + G' f for every body separately, with f of the tree's joints from the inward pass, when the coordinates' equations hold.
 TEST_P(JointTrees, ReactionsBalanceEveryBody) {
   Vecs Q, a, needed(system.bodies.size()), force(system.joints.size(), S::Vec::Zero());
   system.external(0, pose.m, Q);

@@ -62,8 +62,7 @@ SpeedIntegral::Coefficients SpeedIntegral::chebyshev_coefficients(double begin, 
   return out;
 }
 
-// Halves a panel that a polynomial does not resolve (a curve, a kink or jump, the rounding of a sine of large arguments) until the
-// error is negligible.
+// Halves a panel that a polynomial does not resolve (a curve, a kink or jump, the rounding of a sine of large arguments) until the error is negligible.
 void SpeedIntegral::append_panels(double begin, double end, std::vector<Panel>& panels) const {
   const Coefficients c = chebyshev_coefficients(begin, end);
   const double rest = std::max({std::abs(c[kPolynomialDegree]), std::abs(c[kPolynomialDegree - 1]), std::abs(c[kPolynomialDegree - 2])});

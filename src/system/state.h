@@ -53,8 +53,7 @@ double largest_coordinate(const std::vector<Vec>& x);
 /// The largest angle of any body, counting turns in the plane; at least 1 rad.
 template <class S>
 double largest_angle(const PositionsOf<S>& q);
-/// The stiffness of the stiffest joint against displacements, with one-sided laws treated as acting [N/m]; 0 if there is
-/// none.
+/// The stiffness of the stiffest joint against displacements, with one-sided laws treated as acting [N/m]; 0 if there is none.
 template <class S>
 double largest_stiffness(const BasicSystem<S>& system);
 /// The largest force of any joint, without couples [N].

@@ -1,5 +1,4 @@
-// Jumps of the target of a driven component, or of its rate: a motor switched to another speed, a position made of straight
-// lines.
+// Jumps of the target of a driven component, or of its rate: a motor switched to another speed, a piecewise linear position.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +36,7 @@ std::optional<TargetJump> target_jump(const BasicSystem<S>& system, int j, doubl
   return found;
 }
 
-/// The first jump of all targets within a step. For a joint whose target has several jumps there, only one of them is
-/// found.
+/// The first jump of all targets within a step. For a joint whose target has several jumps there, only one of them is found.
 template <class S>
 std::optional<TargetJump> first_target_jump(const BasicSystem<S>& system, double t0, double t1) {
   std::optional<TargetJump> first;

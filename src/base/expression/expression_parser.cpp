@@ -71,8 +71,7 @@ std::optional<double> built_in_constant(std::string_view word) {
 
 }  // namespace
 
-// Precedence climbing over the text; writes the program as it goes. Problems are thrown as ParseProblem, which `parse`
-// catches.
+// Precedence climbing over the text; writes the program as it goes. Problems are thrown as ParseProblem, which `parse` catches.
 class ExpressionParser {
  public:
   ExpressionParser(std::string_view text, const ParseScope& scope) : text_(text), scope_(scope) {}

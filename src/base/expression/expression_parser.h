@@ -2,8 +2,7 @@
 //
 // A unit belongs to the number, the pi or the closing parenthesis before it and binds more tightly than any operator,
 // so that "1/2 m" is 1/(2 m). It continues as long as units follow * or /: "3 N*s/m". A variable is never a unit. For a
-// constant with the symbol of a unit, "2 h" is two hours and "2*h" twice the constant; "2 mm/h" is refused, but "N*m"
-// is not, even if m is a mass.
+// constant with the symbol of a unit, "2 h" is two hours and "2*h" twice the constant; "2 mm/h" is refused, but "N*m" is not, even if m is a mass.
 #pragma once
 
 #include <cstddef>

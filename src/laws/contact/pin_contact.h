@@ -6,8 +6,7 @@
 //   d' = n . p',  v_t = t . p' + R w,  t = (-n_y, n_x)                                             Eq. (4.2)
 //   on the second body: force -N n + F_t t, couple R F_t; F_t against the slip v_t                 Eq. (4.3)
 //
-// The pin, of radius R, is on the second body. Force and slip are those of one point on the pin's surface, so that the moments balance
-// exactly.
+// The pin, of radius R, is on the second body. Force and slip are those of one point on the pin's surface, so that the moments balance exactly.
 #pragma once
 
 #include <algorithm>
