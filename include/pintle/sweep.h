@@ -27,7 +27,7 @@ struct SweepRequest {
   std::uint64_t seed = 1;
   bool latin = false;                   ///< a Latin hypercube: the range of every value is evenly filled
   std::vector<std::string> series;      ///< columns to keep at all output times, named as in series.csv
-  std::uint64_t check_every = 1;        ///< one sample in this many gets an error estimate and is refined until it meets the tolerance; the others are integrated once, with the tolerance that the base run needed
+  std::uint64_t check_every = 1;        ///< one sample in this many gets an error estimate and is refined until it meets the tolerance; the others are integrated once, in the way that the base run needed
   std::map<std::string, std::string> model_files{};  ///< the texts of the files that the model names, by name
 };
 
