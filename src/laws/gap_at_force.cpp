@@ -19,7 +19,7 @@ bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typen
 
 namespace {
 
-constexpr int kSpringSteps = 20, kGapNewton = 40, kHalvings = 12, kDoublings = 80;  // largest numbers of: passes over the components' own springs; Newton iterations for a gap; halvings of one step; doublings of the distance when leaving a play
+constexpr int kSpringSteps = 20, kGapNewton = 40, kHalvings = 12, kDoublings = 80;  // most passes over the components' own springs; most Newton iterations for a gap; most halvings of one step; most doublings of the distance when leaving a play
 constexpr double kCarried = 1e-6;                                                // as a fraction of a force: residual accepted if no step reduces it
 
 // Solves component by component.
@@ -65,7 +65,7 @@ double miss_at(const BasicLaw<S>& law, const typename S::Vec& force, const typen
 // Whether a force that rises with a power of the gap is so close to its origin that Newton's step goes far beyond the solution.
 template <class S>
 bool overshoots(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const BasicResponse<S>& now, const typename S::Vec& engaged, const typename S::Vec& gap) {
-  // kBeginning: the law is near its origin if its stiffness is below this fraction of the engaged stiffness. kFar: a step is too long if it multiplies the residual by more than this;
+  // kBeginning: the law is near its origin if its stiffness is below this fraction of the engaged stiffness. kFar: a step is too long if it multiplies the residual by more than this:
   // smaller growth is left to the halving of steps. Without kBeginning, strongly bent blades (test SlowFlexures), whose steps multiply the residual by up to 985, start elsewhere.
   constexpr double kBeginning = 0.01, kFar = 100;
   bool begins = false;
