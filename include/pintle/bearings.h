@@ -8,13 +8,14 @@
 
 namespace pintle {
 
-/// Of which revolute joints: those whose model states a bearing or an oil film, whose law knows its size, or all, as if the others stated an empty bearing.
+/// Which revolute joints to summarize: those whose model states a bearing or an oil film and those whose law knows its size; or every one, as if the others
+/// stated an empty bearing.
 enum class BearingsOf { kStated, kEveryPin };
 
-/// In the order of the model. Only the bearings are read from `model`, whose other values were those of the run. theory/bearing_life
+/// In the order of the model. Only the bearings are read from `model`; all other values are those of the run. theory/bearing_life
 std::vector<BearingSummary> bearing_summaries(const Model& model, const Trajectory& run, BearingsOf which = BearingsOf::kStated);
 
-/// Exponent of load and life: 3 of balls, 10/3 of rollers; not a number where the type is not stated [-].
+/// Exponent of load in the life formula: 3 for balls, 10/3 for rollers; NaN where the type is not stated [-].
 double life_exponent(const Bearing& bearing);
 
 }  // namespace pintle

@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-/// A closed loop: the joints on the way round.
+/// A closed loop: the joints around it.
 struct CheckLoop {
   std::vector<std::string> joints;
 };
@@ -18,19 +18,19 @@ struct CheckLoop {
 /// The joint graph. Servos of motors and springs are not edges of it.
 struct CheckTopology {
   int n_loops = 0;                                 ///< independent loops
-  std::vector<CheckLoop> loops;                    ///< of a spanning tree that starts at the ground; the first 1000
+  std::vector<CheckLoop> loops;                    ///< loops that a spanning tree from the ground leaves open; the first 1000
   std::vector<std::vector<std::string>> floating;  ///< groups of bodies that no joint ties to the ground
 };
 
-/// How many ways it can move. Ranks are of the scaled constraint Jacobian: angles times `length`, rows of unit norm.
+/// The number of independent motions. Ranks are of the scaled constraint Jacobian: angles times `length`, rows of unit norm.
 struct CheckMobility {
   int freedoms = 0;            ///< 3 per body
   int constraints = 0;         ///< gap components that a joint's law resists; slack ropes and servos are not among them
   int gruebler = 0;            ///< freedoms - constraints
   int rank = -1;               ///< at the assembled position; -1: not determined, `remark` says why
-  int rank_nearby = -1;        ///< the highest rank at assembled positions a little way off; -1: not determined
-  int mobility = -1;           ///< freedoms - the higher of both ranks
-  int redundant = -1;          ///< constraints - the higher of both ranks
+  int rank_nearby = -1;        ///< the highest rank at assembled positions close by; -1: not determined
+  int mobility = -1;           ///< freedoms - the higher of the two ranks
+  int redundant = -1;          ///< constraints - the higher of the two ranks
   int servos = 0;              ///< motors by speed or position
   int mobility_driven = -1;    ///< with the servos' coordinates held, at the assembled position
   double length = 0;           ///< [m]
@@ -44,7 +44,7 @@ struct CheckMobility {
 
 /// Constraint components that carry load against each other without any motion to resist.
 struct CheckRedundancy {
-  int degree = 1;  ///< constraints too many in this group
+  int degree = 1;  ///< number of superfluous constraints in this group
   struct Member {
     std::string joint;
     std::string component;
@@ -53,21 +53,21 @@ struct CheckRedundancy {
   std::vector<Member> members;  ///< largest share first
 };
 
-/// A gear pair or a rack: what the second body does per unit of the first's rotation, the line of centres held.
+/// A gear pair or a rack: motion of the second body per unit rotation of the first, with the line of centres held.
 struct CheckGear {
   std::string joint, type, first_body, second_body;
   double ratio = 0;  ///< [-] or, a rack along its axis, [m/rad]
   std::string unit;  ///< "-" or "m/rad"
 };
 
-/// In a train of mobility 1: the rate of a joint's free coordinate per unit rate of the reference coordinate, now.
+/// In a train of mobility 1: the rate of a joint's free coordinate per unit rate of the reference coordinate, at the assembled position.
 struct CheckTransmission {
   std::string joint, coordinate;
   double ratio = 0;
   std::string unit;
 };
 
-/// One gap component on its own spring, the two bodies otherwise free.
+/// One gap component on its own spring, with the two bodies otherwise free.
 struct CheckComponent {
   std::string joint, type, component;
   double stiffness = 0;       ///< [N/m] or [N*m/rad]
@@ -81,8 +81,8 @@ struct CheckComponent {
 struct CheckMode {
   double frequency = 0;          ///< undamped [rad/s]
   double damping_ratio = 0;      ///< from the mode's own damping [-]
-  std::string joint, component;  ///< that stores most of its energy
-  double share = 0;              ///< of the energy [-]
+  std::string joint, component;  ///< the one that stores most of its energy
+  double share = 0;              ///< of that joint component in the mode's energy [-]
 };
 
 struct CheckFrequencies {
@@ -98,9 +98,9 @@ struct CheckItem {
   std::string what;
   double worst = 0;      ///< relative mismatch [-]
   double tolerance = 0;  ///< [-]
-  std::string place;     ///< where the worst is
+  std::string place;     ///< where the worst mismatch is
   long comparisons = 0;
-  long at_kinks = 0;                                  ///< left out: a law or expression has no slope there
+  long at_kinks = 0;                                  ///< left out because a law or expression has no slope there
   bool passed() const { return worst <= tolerance; }  // a NaN does not pass
 };
 

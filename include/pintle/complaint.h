@@ -15,7 +15,7 @@ struct Place {
 };
 
 /// One complaint. `path` is the key in the model ("joint.A.stiffness"), `found` quotes the input, `because` says why it
-/// is wrong, `suggestion` what to try (may be empty). `source_line` is the text line, for the caret.
+/// is wrong, `suggestion` says what to try (may be empty). `source_line` is the line of the text above the caret.
 struct Complaint {
   Place place;
   std::string path;

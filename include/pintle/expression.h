@@ -35,34 +35,36 @@ class Expression {
   const std::string& text() const { return text_; }                          ///< as the user wrote it
   const std::vector<std::string>& variables() const { return variables_; }   ///< e.g. {"t", "angle", "rate", "A.slide"}
   bool is_constant() const;
-  /// A copy in which this variable is replaced by the constant `si`. It keeps its place among variables(), and what is given for it is not read.
+  /// A copy in which this variable is replaced by the constant `si`. The variable keeps its place in variables(), but the value passed for it is
+  /// ignored.
   Expression substitute(std::string_view variable, double si) const;
 
   /// Value at `values` (one per variable, SI).
   double value(std::span<const double> values) const;
   /// Value and all first derivatives (exact). `gradient` has one entry per variable.
   double gradient(std::span<const double> values, std::span<double> gradient) const;
-  /// A jump (a comparison, sign or step) passed on a straight ramp: a share of the value above it, the rest of that below.
+  /// A jump (a comparison, sign or step) replaced by a straight ramp: a share of the value above the jump plus the
+  /// remaining share of the value below it.
   struct Ramp {
-    std::size_t jump = 0;     // which, as `jump_between` gives it
+    std::size_t jump = 0;     // index of the jump, as returned by `jump_between`
     double share = 0;         // at margin `at`
     double slope = 0, at = 0; // share per unit of the margin
     double share_at(double margin) const { return share + slope * (margin - at); }
   };
-  /// By how much the jump's argument is above it (left side less right side of a comparison).
+  /// By how much the jump's argument exceeds its threshold (left side minus right side of a comparison).
   double margin(std::size_t jump, std::span<const double> values) const;
   /// A jump that lies between two points.
   std::optional<std::size_t> jump_between(std::span<const double> from, std::span<const double> to) const;
-  /// Value and first derivatives with one jump on a ramp, which goes on beyond both sides.
+  /// Value and first derivatives with one jump replaced by a ramp, which continues beyond both sides.
   double gradient(std::span<const double> values, std::span<double> gradient, const Ramp& ramp) const;
 
-  /// How many kinks and jumps the expression has (min, max, abs, comparisons ..; a smoothstep two).
+  /// Number of kinks and jumps of the expression (min, max, abs, comparisons ..; two for a smoothstep).
   int n_switches() const;
-  /// A number for each of them that changes its sign there: positive on one side, negative or 0 on the other, and proportional
-  /// to the distance of its arguments. On a ramp: positive where its share is outside 0 .. 1.
+  /// One value for each of them, which changes its sign there: positive on one side, negative or 0 on the other, and
+  /// proportional to the distance of the arguments. With a ramp: positive where its share is outside 0 .. 1.
   void evaluate_switching_functions(std::span<const double> values, double* value, const Ramp* ramp = nullptr) const;
-  /// Where the switching function k changes its sign between two places, ascending, if it is that of a table, the expression has one variable, and the argument of the
-  /// table goes straight with it; none otherwise, and where there are more than `most`.
+  /// Where switching function k changes its sign between two places, in ascending order, provided that it belongs to a table, the expression has one variable, and the
+  /// table's argument is linear in it. None otherwise, or if there are more than `most` places.
   std::optional<std::vector<double>> kinks_of_table(std::size_t k, double low, double high, std::size_t most) const;
   /// Value, first and second derivative with respect to variable `index`, the others held (exact).
   std::array<double, 3> second_order(std::span<const double> values, std::size_t index) const;

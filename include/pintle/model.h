@@ -17,7 +17,7 @@ namespace pintle {
 
 using Vec2 = std::array<double, 2>;
 
-/// A point and an axis fixed in a body (body axes, origin at the centre of mass) or in the ground.
+/// A point and an axis, fixed in a body (body axes, origin at the centre of mass) or in the ground.
 struct Marker {
   std::string name;
   Vec2 position{0, 0};  ///< [m]
@@ -25,7 +25,7 @@ struct Marker {
   friend bool operator==(const Marker&, const Marker&) = default;
 };
 
-/// A rigid body. Positions and velocities are of the centre of mass; absent values are found by assembly.
+/// A rigid body. Positions and velocities are those of the centre of mass; absent values are found by assembly.
 struct Body {
   std::string name;
   double mass = 1;     ///< [kg]
@@ -34,7 +34,7 @@ struct Body {
   std::optional<double> angle;   ///< guess [rad]
   std::optional<Vec2> velocity;  ///< [m/s]
   std::optional<double> spin;    ///< [rad/s]
-  std::array<bool, 3> hold{false, false, false};  ///< x, y, angle: assembly must not move these
+  std::array<bool, 3> hold{false, false, false};  ///< x, y, angle: assembly must not change these
   std::vector<Marker> markers;
   friend bool operator==(const Body&, const Body&) = default;
 };
@@ -46,26 +46,26 @@ struct MarkerRef {
   friend bool operator==(const MarkerRef&, const MarkerRef&) = default;
 };
 
-/// A joint law by its word in the catalog, with its parameters by name; a list has one value per gap component it covers.
+/// A joint law by its word in the catalog, with its parameters by name; a list has one value for each gap component it covers.
 struct LawChoice {
   std::string word = "linear";
   std::map<std::string, std::vector<double>> values;
   friend bool operator==(const LawChoice&, const LawChoice&) = default;
 };
 
-/// What carries a pin: a rolling bearing by the figures of its catalogue, a plain one by its size. What is not stated is absent.
-/// theory/bearing_life
+/// The bearing of a pin: a rolling bearing by its catalogue data, a plain one by its size. Values that are not stated are absent. theory/bearing_life
 struct Bearing {
   std::string type;  ///< "ball" or "roller"; empty: not stated
   std::optional<double> dynamic_load_rating{};  ///< C of ISO 281 [N]
   std::optional<double> static_load_rating{};   ///< C_0 of ISO 76 [N]
   std::optional<double> fatigue_load_limit{};   ///< C_u of ISO 281 [N]
   std::optional<double> pin_diameter{}, pin_length{};  ///< of a plain bearing [m]
-  std::optional<double> wear_coefficient{};            ///< of its bush: volume that wears per force and way of slip [m^2/N]
+  std::optional<double> wear_coefficient{};            ///< of its bush: worn volume per unit force and sliding distance [m^2/N]
   friend bool operator==(const Bearing&, const Bearing&) = default;
 };
 
-/// Whether two functions of one variable are the same: a text may have been read with other parameters, so that values between two places are compared too.
+/// Whether two functions of one variable are the same. Their texts may have been read with different parameters, so values between two places are compared
+/// as well.
 inline bool same_profile(const Expression& a, const Expression& b, double from, double to) {
   bool same = a.text() == b.text() && a.variables() == b.variables();
   for (int i = 0; same && i < 60; ++i) {
@@ -76,9 +76,9 @@ inline bool same_profile(const Expression& a, const Expression& b, double from, 
   return same;
 }
 
-/// A cam and what follows it. theory/cams
+/// A cam and its follower. theory/cams
 struct Cam {
-  Expression lift;           ///< over the base circle, of the angle on the cam [m]
+  Expression lift;           ///< above the base circle, as a function of the angle on the cam [m]
   double base_radius = 0;    ///< of the base circle [m]
   double roller_radius = 0;  ///< of the follower; 0: a pin [m]
   bool flat = false;         ///< the follower is a flat face
@@ -89,9 +89,9 @@ struct Cam {
 
 /// A curved edge and the roller above it. theory/cams section 4
 struct Edge {
-  Expression height;         ///< over the x axis of the first marker, of x along it [m]
-  double roller_radius = 0;  ///< of what runs on it; 0: a point [m]
-  double from = 0, to = 0;   ///< the part of x that is drawn and checked; beyond it the edge goes on as its expression does [m]
+  Expression height;         ///< above the x axis of the first marker, as a function of x along it [m]
+  double roller_radius = 0;  ///< of the roller or wheel; 0: a point [m]
+  double from = 0, to = 0;   ///< range of x that is drawn and checked; beyond it the edge continues as its expression does [m]
   friend bool operator==(const Edge& a, const Edge& b) {
     return a.roller_radius == b.roller_radius && a.from == b.from && a.to == b.to && same_profile(a.height, b.height, a.from, a.to);
   }
@@ -104,14 +104,14 @@ struct Joint {
   MarkerRef first, second;
   std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled, less stretch [m]); cylinder: closed_length, stroke, bore, rod_diameter [m], its pressures [Pa]; gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
-  LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
-  LawChoice stops{"", {}};     ///< of its angle or slide; no word: none
-  LawChoice detent{"", {}};    ///< of its angle or slide; no word: none
-  std::map<std::string, Expression> functions{};  ///< keys of its type that are functions, which geometry has not then: a rod's or rope's `length` of t [m], the pressures in a cylinder [Pa]
-  bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
+  LawChoice friction{"", {}};  ///< in the free directions of the joint; no word: none
+  LawChoice stops{"", {}};     ///< for its angle or slide; no word: none
+  LawChoice detent{"", {}};    ///< for its angle or slide; no word: none
+  std::map<std::string, Expression> functions{};  ///< keys of its type that are functions and therefore not in geometry: a rod's or rope's `length` of t [m], the pressures in a cylinder [Pa]
+  bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates satisfy the joint exactly
   std::optional<Cam> cam{};    ///< of a cam joint
   std::optional<Edge> edge{};  ///< of an edge joint
-  std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
+  std::optional<Bearing> bearing{};  ///< of a pin; it does not affect the motion
   /// Functions are compared by their text.
   friend bool operator==(const Joint& a, const Joint& b) {
     const auto values = [](const Joint& j) { return std::tie(j.name, j.type, j.first, j.second, j.geometry, j.law, j.friction, j.stops, j.detent, j.ideal, j.cam, j.edge, j.bearing); };
@@ -128,7 +128,7 @@ struct Spring {
   double stiffness = 0;  ///< [N/m] or [N*m/rad]
   double damping = 0;    ///< [N*s/m] or [N*m*s/rad]
   std::optional<double> free_length;  ///< [m] or [rad]; absent: as assembled
-  std::optional<double> preload;      ///< tension at the assembled length [N], or moment on the second body towards smaller angles [N*m]
+  std::optional<double> preload;      ///< tension at the assembled length [N], or moment on the second body, towards smaller angles [N*m]
   friend bool operator==(const Spring&, const Spring&) = default;
 };
 
@@ -143,9 +143,9 @@ struct AppliedForce {
 
 enum class MotorKind { kEffort, kSpeed, kPosition };
 
-/// A motor in a joint's free coordinate. kEffort: torque or force = expression of t, the coordinate ("angle" or
-/// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: expression of t or a constant; a servo
-/// moves the coordinate at this speed, from its assembled value on. kPosition: expression of t, followed by a servo.
+/// A motor in a joint's free coordinate. kEffort: torque or force as an expression of t, the coordinate ("angle" or
+/// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: an expression of t or a constant; a
+/// servo moves the coordinate at this speed, starting from its assembled value. kPosition: an expression of t, followed by a servo.
 struct Motor {
   std::string name;
   std::string joint;
@@ -155,15 +155,14 @@ struct Motor {
   double damping = 1e3;    ///< servo [N*m*s/rad] or [N*s/m]
 };
 
-/// What a run starts from. kAssembled: positions, velocities and preloads that fit. kSeated: the same, with joints that have play on the side to which
-/// their load presses them, not in the middle. kSettled: those at which the assembled mechanism is at rest under the
-/// loads of t = 0. kUnloaded: no preloads. kRaw: as stated.
+/// What a run starts from. kAssembled: consistent positions, velocities and preloads. kSeated: the same, but joints with play start on the side to
+/// which their load presses them instead of in the middle. kSettled: the positions in which the assembled mechanism is at rest under the loads of t =
+/// 0. kUnloaded: no preloads. kRaw: as stated.
 enum class Start { kAssembled, kSeated, kSettled, kUnloaded, kRaw };
 
-/// The equations of motion. kNewtonian: every joint is a force law. kRelative: joints marked `ideal` are obeyed by
-/// relative coordinates over a spanning tree, every other joint is a force law. kIdeal: every joint with a linear law is a
-/// constraint with Lagrange multipliers. kPenalty: the same constraints, each opposed by a penalty on its acceleration, rate and
-/// violation. kAugmentedLagrangian: the same constraints, with multipliers that are found in the iteration of an implicit step. kRelativeAugmented: that in relative coordinates, for what closes their loops.
+/// The equations of motion. kNewtonian: every joint is a force law. kRelative: joints marked `ideal` are satisfied by relative coordinates over a spanning tree, every other joint is a force law. kIdeal:
+/// every joint with a linear law is a constraint with a Lagrange multiplier. kPenalty: the same constraints, each opposed by a penalty on its acceleration, rate and violation. kAugmentedLagrangian: the same
+/// constraints, with multipliers found in the iteration of an implicit step. kRelativeAugmented: the same in relative coordinates, for the constraints that close their loops.
 enum class Equations { kNewtonian, kRelative, kIdeal, kPenalty, kAugmentedLagrangian, kRelativeAugmented };
 
 /// The word of the model file.
@@ -179,7 +178,7 @@ inline const char* to_word(Equations equations) {
   return "";
 }
 
-/// Of a word of the model file; kNewtonian for all others.
+/// From a word of the model file; kNewtonian for all other words.
 inline Equations to_equations(std::string_view word) {
   for (const Equations e : {Equations::kRelative, Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
     if (word == to_word(e)) return e;
@@ -189,23 +188,23 @@ inline Equations to_equations(std::string_view word) {
 /// Whether joints with a linear law are constraints.
 constexpr bool has_constraints(Equations e) { return e != Equations::kNewtonian && e != Equations::kRelative; }
 
-/// With kPenalty.
+/// Settings for kPenalty.
 struct PenaltySettings {
-  double factor = 1e7;    ///< of a constraint's penalty, over the mass that resists it at the start [-]
-  double frequency = 10;  ///< at which violations die away [rad/s]
-  double damping = 1;     ///< ratio of it [-]
+  double factor = 1e7;    ///< penalty of a constraint over the mass that resists it at the start [-]
+  double frequency = 10;  ///< at which violations decay [rad/s]
+  double damping = 1;     ///< damping ratio of that decay [-]
 };
 
-/// What the tolerance is of. kForces: of each joint force, over its peak. kMotion: of the place of every body, over the longest
-/// way that one has gone; vibrations too small to matter for that are damped out, not followed, and the joint forces are as
-/// accurate as their error estimates say.
+/// What the tolerance applies to. kForces: each joint force, relative to its peak. kMotion: the position of every body,
+/// relative to the longest distance that a body has travelled; vibrations too small to matter for that are damped out instead
+/// of followed, and the joint forces are as accurate as their error estimates say.
 enum class ToleranceOf { kForces, kMotion };
 
-/// How to run it.
+/// Settings of a run.
 struct SimulateSettings {
   double duration = 0;       ///< [s]; 0: not stated
   double output_step = 0;    ///< [s]; 0: duration / 500, longer beyond 20,000 joints
-  double tolerance = 1e-5;   ///< of what tolerance_of says [-]
+  double tolerance = 1e-5;   ///< of the quantities that tolerance_of names [-]
   ToleranceOf tolerance_of = ToleranceOf::kForces;
   std::string method = "auto";  ///< auto, radau, dopri5, ode45, ode23t, ode15s, ode113, hht, generalised_alpha
   Equations equations = Equations::kNewtonian;
@@ -228,7 +227,7 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<AppliedForce> forces;
   std::vector<Motor> motors;
-  std::vector<std::string> notes;  ///< what reading left out, for the notes of runs and checks
+  std::vector<std::string> notes;  ///< what reading the model left out, for the notes of runs and checks
 };
 
 }  // namespace pintle

@@ -10,13 +10,13 @@
 namespace pintle {
 
 struct ReportOptions {
-  /// Numbers that the page should carry for its pictures (eight bytes each, a third more as text). A run with more is thinned
-  /// in time, and the page says so. The tables stay, and the moments of the largest joint forces, which may be half as many
-  /// rows again; a mechanism of very many columns keeps 50 rows, however many numbers that makes.
+  /// Limit on the numbers that the page holds for its pictures (eight bytes each, a third more as text). A longer run is
+  /// thinned in time, and the page says so. The tables stay complete, and the instants of the largest joint forces are kept,
+  /// which may add half as many rows again. A mechanism with very many columns keeps 50 rows, however many numbers that makes.
   std::size_t most_values = 750'000;
 };
 
-/// `model` is what was run. Throws std::invalid_argument for a model that is not planar.
+/// `model` is the model that was run. Throws std::invalid_argument for a model that is not planar.
 std::string report_html(const Model& model, const RunRecord& run, const ReportOptions& options = {});
 
 }  // namespace pintle

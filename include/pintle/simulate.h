@@ -1,4 +1,4 @@
-// From a model to a trajectory.
+// Runs a model: from a model to a trajectory.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace pintle {
 
-/// Passed to the observer now and then. `pass` counts the integrations of one run: the pilot (1) and the reported one;
-/// 0 while a large mechanism is assembled.
+/// Passed to the observer from time to time. `pass` counts the integrations of one run: the pilot (1) and the reported
+/// one; it is 0 while a large mechanism is assembled.
 struct Progress {
   double t = 0;         ///< model time reached [s]
   double duration = 0;  ///< [s]
@@ -19,17 +19,17 @@ struct Progress {
   double wall_seconds = 0;
 };
 
-/// Called about ten times a second at most; return false to stop (results so far are kept).
+/// Called about ten times a second at most; return false to stop (the results so far are kept).
 using Observer = std::function<bool(const Progress&)>;
 
-/// The mechanism cannot be assembled: which loop, by how much.
+/// The mechanism cannot be assembled: which loop does not close, and by how much.
 class AssemblyError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Runs `model` as its `simulate` settings say. Throws AssemblyError; a numerical failure or an interruption is a value
-/// in the trajectory's outcome, with everything computed until then.
+/// Runs `model` according to its `simulate` settings. Throws AssemblyError. A numerical failure or an interruption is
+/// reported in the trajectory's outcome, along with everything computed until then.
 Trajectory simulate(const Model& model, const Observer& observer = {});
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// Where a curve changes the way it bends: what a step must not fly past.
+// Places where the curvature of a curve changes sign: steps must not skip them.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace pintle {
 
-/// Places along a curve, ascending, at which straight, convex and hollow parts of it meet: a bump has them on either side. With a period the curve goes on in the same way.
+/// Places along a curve, ascending, at which straight, convex and concave parts meet; a bump has such places on either side. With a period the pattern repeats.
 struct Bends {
   std::vector<double> places;
   double period = 0;  // 0: none
 
   bool empty() const { return places.empty(); }
-  /// The share of the way between two places that leads to the second bend on it; 1 if there are fewer, or where the way ends little behind the second one. With the
-  /// start at a bend this is none.
+  /// The fraction of the interval between two places that leads to the second bend in it; 1 if there are fewer bends, or if the interval ends just after the second
+  /// one. A bend at the start does not count.
   double share_to_second_bend(double from, double to) const {
     if (empty() || !(std::abs(to - from) > 0)) return 1;
     const bool forward = to > from;
@@ -24,14 +24,14 @@ struct Bends {
     const auto share_at = [&](double place) { return (place - from) / (to - from); };
     return share_of_way(share_at(second), share_at(next_bend(second, forward)));
   }
-  /// The same from the shares that lead to the second and the third bend.
+  /// The same from the fractions that lead to the second and the third bend.
   static double share_of_way(double second, double third) {
-    constexpr double kBarely = 0.99;  // a way that was to end at the second bend may go so much further. With 0.5 a bump is missed, with 1 steps end where rounding puts a bend
+    constexpr double kBarely = 0.99;  // an interval due to end at the second bend may be longer by this ratio. With 0.5 a bump is missed, with 1 steps end where rounding puts a bend
     return second < kBarely || third < 1 ? second : 1;
   }
 
  private:
-  // Beyond `from` by more than rounding.
+  // The next bend, beyond `from` by more than rounding.
   double next_bend(double from, bool forward) const {
     constexpr double kRounding = 1e-12;
     if (std::isinf(from)) return from;
@@ -49,11 +49,11 @@ struct Bends {
   }
 };
 
-/// Calls use(i) where the curvatures i - 1 and i of n have other signs. Those up to `least`, or to a ten-thousandth of the largest, have none, and a single one of these between
-/// two signs is at one bend.
+/// Calls use(i) where the curvatures i - 1 and i of n have different signs. Curvatures up to `least`, or up to a ten-thousandth of the largest, count as zero; a single zero
+/// between two signs counts as one bend.
 template <class Curvature, class Use>
 void for_each_bend(const Curvature& curvature, std::size_t n, double least, Use&& use) {
-  constexpr double kStraight = 1e-4;  // of the largest. With 0 bumps are missed
+  constexpr double kStraight = 1e-4;  // as a fraction of the largest. With 0 bumps are missed
   double straight = 0;
   for (std::size_t i = 0; i < n; ++i) straight = std::max(straight, std::abs(curvature(i)));
   straight = std::max(kStraight * straight, least);
@@ -62,14 +62,14 @@ void for_each_bend(const Curvature& curvature, std::size_t n, double least, Use&
     if (way(i) != way(i - 1) && !(way(i) == 0 && i + 1 < n && way(i + 1) == -way(i - 1))) use(i);
 }
 
-/// Of a curve of which the curvature is known at places along it, ascending: a bend lies between two of them.
+/// The bends of a curve whose curvature is known at places along it, ascending: each lies between two of them.
 inline Bends bends_between(const std::vector<double>& places, const std::vector<double>& curvature) {
   Bends bends;
   for_each_bend([&](std::size_t i) { return curvature[i]; }, places.size(), 0, [&](std::size_t i) { bends.places.push_back(0.5 * (places[i - 1] + places[i])); });
   return bends;
 }
 
-/// The same at the ends of 720 equal parts.
+/// The same from the curvature at the ends of 720 equal parts.
 template <class Curvature>
 Bends find_bends(const Curvature& curvature, double low, double high) {
   constexpr int kParts = 720;
@@ -81,10 +81,10 @@ Bends find_bends(const Curvature& curvature, double low, double high) {
   return bends_between(places, values);
 }
 
-/// The graph of a function, by its values at the ends of equal parts of a way; what is narrower than a part may be missed.
+/// The graph of a function, by its values at the ends of equal parts of an interval; features narrower than a part may be missed.
 class SampledGraph {
  public:
-  /// Takes room for so many parts: no more is allocated then.
+  /// Allocates memory for this many parts; nothing more is allocated later.
   explicit SampledGraph(int most_parts) { values_.reserve(static_cast<std::size_t>(most_parts) + 1); }
 
   template <class Function>
@@ -92,11 +92,11 @@ class SampledGraph {
     values_.clear();
     for (int i = 0; i <= parts; ++i) values_.push_back(f(low + (high - low) * i / parts));
   }
-  /// Calls use(part) at the bends, by second differences: part is where it is, counted from the start of the way.
+  /// Calls use(part) at the bends, found by second differences: part is the position, in parts from the start of the interval.
   template <class Use>
   void for_each_bend(Use&& use) const {
-    constexpr double kRounding = 1e-14;  // of the largest value: a sum that ought to be constant has no bends
-    constexpr double kSmooth = 1e-5;     // of the range of values: what bends so little from one part to the next is as long as hundreds of them. With 0 a toggle press takes 12 times the steps
+    constexpr double kRounding = 1e-14;  // as a fraction of the largest value: a sum that should be constant has no bends
+    constexpr double kSmooth = 1e-5;     // as a fraction of the range of values: a curve that bends so little from one part to the next is smooth over hundreds of them. With 0 a toggle press takes 12 times the steps
     if (values_.size() < 3) return;
     const auto curvature = [this](std::size_t i) { return values_[i + 2] - 2 * values_[i + 1] + values_[i]; };
     const auto [least, largest] = std::minmax_element(values_.begin(), values_.end());

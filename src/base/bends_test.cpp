@@ -11,10 +11,10 @@ TEST(Bends, TheSecondOneEndsTheWay) {
   const Bends bends{{1, 2, 5}};
   EXPECT_EQ(bends.share_to_second_bend(0, 4), 0.5);
   EXPECT_EQ(bends.share_to_second_bend(0, 1.9), 1);
-  EXPECT_EQ(bends.share_to_second_bend(0, 2.01), 1);  // a little further than to the second
+  EXPECT_EQ(bends.share_to_second_bend(0, 2.01), 1);  // a little beyond the second
   EXPECT_EQ(bends.share_to_second_bend(0, 5.1), 2 / 5.1);
-  EXPECT_EQ((Bends{{4.7, 4.8, 4.9}}.share_to_second_bend(0, 5)), 4.8 / 5);  // all of it at the end of a long way
-  EXPECT_EQ(bends.share_to_second_bend(1, 9), 0.5);  // a bend that it starts at is behind it
+  EXPECT_EQ((Bends{{4.7, 4.8, 4.9}}.share_to_second_bend(0, 5)), 4.8 / 5);  // all of them at the end of a long interval
+  EXPECT_EQ(bends.share_to_second_bend(1, 9), 0.5);  // a bend at the start does not count
   EXPECT_EQ(bends.share_to_second_bend(2, 9), 1);
   EXPECT_EQ(bends.share_to_second_bend(6, 0), 4.0 / 6);
   EXPECT_EQ(bends.share_to_second_bend(5, 0), 4.0 / 5);
@@ -32,7 +32,7 @@ TEST(Bends, GoOnWithTheirPeriod) {
   EXPECT_EQ(bends.share_to_second_bend(1, 5), 1);
 }
 
-// Wherever rounding puts the places of a turn.
+// Wherever rounding places the bends of a period.
 TEST(Bends, AlwaysLeaveAWay) {
   const Bends bends{{-0.04, 0, 0.04}, std::numbers::pi / 4};
   for (int turn = -50; turn <= 50; ++turn)
@@ -50,7 +50,7 @@ TEST(Bends, AlwaysLeaveAWay) {
 TEST(Bends, OfABumpAreOnEitherSideOfIt) {
   const auto curvature = [](double x) { return std::exp(-x * x) * (4 * x * x - 2); };
   const Bends bends = find_bends(curvature, -5, 5);
-  ASSERT_EQ(bends.places.size(), 4U);  // straight, hollow, convex, hollow, straight
+  ASSERT_EQ(bends.places.size(), 4U);  // straight, concave, convex, concave, straight
   EXPECT_NEAR(bends.places[1], -std::numbers::sqrt2 / 2, 10.0 / 720);
   EXPECT_NEAR(bends.places[2], std::numbers::sqrt2 / 2, 10.0 / 720);
   EXPECT_TRUE(find_bends([](double) { return 0.0; }, 0, 1).empty());
@@ -69,7 +69,7 @@ TEST(Bends, OfAGraphAreThoseOfItsSecondDifferences) {
   ASSERT_GE(places.size(), 2U);
   for (const double place : places) EXPECT_NEAR(place, 3, 0.02);
   EXPECT_TRUE(bends_of([](double t) { return 1e6 + 7 * t; }, 0, 6, 2000).empty());
-  EXPECT_TRUE(bends_of([](double t) { return 1e7 * (t - 0.3); }, 0.3, 0.3 + 1e-9, 2000).empty());  // rounding has no bends
+  EXPECT_TRUE(bends_of([](double t) { return 1e7 * (t - 0.3); }, 0.3, 0.3 + 1e-9, 2000).empty());  // rounding causes no bends
   EXPECT_TRUE(bends_of([](double t) { return 100 * (std::sin(t) * std::sin(t) + std::cos(t) * std::cos(t)); }, 0, 6, 2000).empty());
   const std::vector<double> of_sine = bends_of([](double t) { return std::sin(t); }, 0.5, 3.5 * std::numbers::pi, 200);
   ASSERT_EQ(of_sine.size(), 3U);

@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-constexpr std::size_t kWidest = 110;  // characters of a source line shown at most
+constexpr std::size_t kWidest = 110;  // most characters of a source line that are shown
 
 std::string heading(const Complaint& complaint) {
   const Place& place = complaint.place;
@@ -41,7 +41,7 @@ std::size_t bytes_of(std::string_view text, std::size_t n_characters) {
   return at;
 }
 
-// The line with a mark in front and a caret below; a very long line is cut to a window around the caret.
+// The line with a mark in front and a caret below it; a very long line is cut to a window around the caret.
 std::string source_with_caret(const Complaint& complaint) {
   std::string line = printable(complaint.source_line);
   std::size_t before = complaint.place.column > 0 ? static_cast<std::size_t>(complaint.place.column - 1) : 0;

@@ -1,4 +1,4 @@
-// A decimal number from text, correctly rounded, whatever the locale and whether or not the standard library can.
+// A decimal number from text, correctly rounded, independent of the locale and of what the standard library supports.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@ namespace pintle {
 
 struct Decimal {
   double value = 0;       // beyond the range of doubles: infinity, or zero
-  bool whole = false;     // all of the text was the number
+  bool whole = false;     // the number was the whole text
   bool in_range = false;
 };
 

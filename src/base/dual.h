@@ -1,5 +1,5 @@
-// A number with its derivatives by M variables: what goes through a formula comes out with its exact gradient (forward differentiation;
-// A. Griewank and A. Walther, Evaluating Derivatives, SIAM 2008, chapter 3).
+// A number with its derivatives by M variables: the result of a formula carries its exact gradient (forward differentiation; A.
+// Griewank and A. Walther, Evaluating Derivatives, SIAM 2008, chapter 3).
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ template <int M>
 struct Dual {
   double v, d[M];
 
-  Dual() = default;  // not set, as a plain number is
+  Dual() = default;  // uninitialised, like a plain number
   explicit Dual(double value) : v(value), d{} {}
   /// The variable number `i` at `value`.
   static Dual variable(double value, int i) {
@@ -33,14 +33,14 @@ struct Dual {
   friend Dual operator*(double x, const Dual& a) { return scaled(x * a.v, x, a); }
   friend Dual operator*(const Dual& a, double x) { return x * a; }
 
-  /// f(a) with the slope df there.
+  /// f(a), where df is the slope at a.
   static Dual scaled(double f, double df, const Dual& a) {
     Dual r;
     r.v = f;
     for (int i = 0; i < M; ++i) r.d[i] = df * a.d[i];
     return r;
   }
-  /// Adds what a function of a adds: its value f and its slope df there.
+  /// Adds a function of a: its value f and its slope df there.
   void add(double f, double df, const Dual& a) {
     v += f;
     for (int i = 0; i < M; ++i) d[i] += df * a.d[i];

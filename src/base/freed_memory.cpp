@@ -10,7 +10,7 @@ namespace pintle {
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kMega = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * kMega);  // the most that glibc takes; larger pieces are still maps of their own
+  mallopt(M_MMAP_THRESHOLD, 32 * kMega);  // the largest value that glibc accepts; larger blocks still get mappings of their own
   mallopt(M_TRIM_THRESHOLD, 1024 * kMega);
   mallopt(M_TOP_PAD, kMega);
 #endif

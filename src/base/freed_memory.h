@@ -3,10 +3,10 @@
 
 namespace pintle {
 
-/// Freed memory stays with the process from now on, for the next model, start or run to take. Otherwise the C library hands large
-/// pieces back at once, and the system hands them out again page by page, cleared: where it is a virtual machine that takes a third
-/// of the time of a start. For programs, as their first act; a library leaves this choice to its program. Nothing but glibc has it;
-/// elsewhere this does nothing.
+/// Makes the process keep freed memory from now on, for reuse by the next model, start or run. Otherwise the C library returns
+/// large blocks at once, and the system hands them out again page by page, cleared: in a virtual machine this takes a third of the
+/// time of a start. To be called by a program as its first action; a library leaves this choice to its program. Only glibc supports
+/// it; elsewhere this does nothing.
 void keep_freed_memory();
 
 }  // namespace pintle

@@ -22,7 +22,7 @@ long pages_handed_out() {
   return use.ru_minflt;
 }
 
-// A start's or a step's room: some arrays of a megabyte.
+// The memory of a start or a step: some arrays of a megabyte.
 double fill_and_free() {
   std::vector<std::vector<double>> arrays(8);
   for (auto& x : arrays) x.assign(1 << 17, 1.0);

@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine, and differences of fourth order, for the tests of every room.
+// Random numbers that are the same on every machine, and fourth-order differences, for all tests.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ class Random {
   }
   int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
   bool coin() { return below(2) == 1; }
-  /// Either sign, the magnitude spread evenly over the decades from low to high.
+  /// Either sign; magnitudes distributed evenly over the decades from low to high.
   double of_any_size(double low, double high) {
     const double size = std::exp(uniform(std::log(low), std::log(high)));
     return coin() ? size : -size;
@@ -32,7 +32,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// df/dx at x = 0 from values at -2h, -h, h, 2h; the error goes with h^4.
+/// df/dx at x = 0 from values at -2h, -h, h, 2h; the error is of order h^4.
 template <class F>
 auto slope_at_zero(double h, F&& f) {
   using Value = decltype(f(h));

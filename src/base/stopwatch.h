@@ -5,7 +5,7 @@
 
 namespace pintle {
 
-/// Runs from its making on.
+/// Runs from its construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

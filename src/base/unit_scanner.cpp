@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kDeepest = 20;  // nested parentheses in a unit
+constexpr int kDeepest = 20;  // limit on nested parentheses in a unit
 
 struct Exponent {
   int value = 1;
@@ -22,7 +22,7 @@ class UnitScanner {
   UnitScanner(std::string_view text, const IsName& is_variable, const IsAmbiguous& is_ambiguous)
       : text_(text), is_variable_(is_variable), is_ambiguous_(is_ambiguous) {}
 
-  // A product of factors from `at`; `end` is behind the last factor that is a unit.
+  // A product of factors from `at`; `end` is just after the last factor that is a unit.
   UnitScan scan_product(std::size_t at, int depth) const {
     UnitScan result = scan_factor(at, depth);
     while (result.found && result.problem.empty()) {
@@ -94,7 +94,7 @@ class UnitScanner {
     return base;
   }
 
-  // The exponent behind a factor: 1 if there is none, nothing if it is no small whole number.
+  // The exponent after a factor: 1 if there is none, nothing if it is not a small whole number.
   std::optional<Exponent> exponent_at(std::size_t at) const {
     const std::string_view rest = text_.substr(at);
     if (rest.starts_with("\xC2\xB2")) return Exponent{2, at + 2};  // superscript two

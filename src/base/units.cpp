@@ -97,7 +97,7 @@ struct DimensionName {
   std::string_view unit;
 };
 
-// Dimensions that have a name. Where two differ by radians only, the one without comes first.
+// Dimensions that have a name. If two differ only by radians, the one without radians comes first.
 constexpr std::array kNames{
     DimensionName{kPureNumber, "a pure number", "1"},
     DimensionName{kAngle, "an angle", "rad"},
@@ -145,7 +145,7 @@ void append_power(std::string& text, std::string_view joint, std::string_view sy
   if (exponent != 1) text.append("^").append(std::to_string(exponent));
 }
 
-// From base units: numerator, then one divisor after another.
+// In base units: the numerator, then one divisor after another.
 std::string spelled_out(const Dimension& dimension) {
   constexpr std::array<std::size_t, 4> kOrder{1, 0, 2, 3};
   constexpr std::array<std::string_view, 4> kBase{"m", "kg", "s", "rad"};

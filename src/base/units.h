@@ -1,7 +1,7 @@
 // Units and dimensions: symbols with their SI factors, and the arithmetic and names of dimensions.
 //
 // The radian is carried along so that messages can say "an angle", but it never decides whether two dimensions agree:
-// rad and 1 are interchangeable, N*m/rad and N*m too.
+// rad and 1 are interchangeable, as are N*m/rad and N*m.
 #pragma once
 
 #include <optional>
@@ -42,7 +42,7 @@ bool is_unit_symbol(std::string_view word);
 /// Every symbol, in the manual's order.
 std::span<const std::string_view> unit_symbols();
 
-/// A whole text that is one unit: symbols joined by *, / and whole exponents, with parentheses: "N*m*s/rad",
+/// The unit given by a whole text: symbols joined by *, / and whole exponents, with parentheses: "N*m*s/rad",
 /// "kg/(m*s)". The empty text is the pure number. Nothing if it is not a unit.
 std::optional<Unit> parse_unit(std::string_view text);
 
@@ -51,9 +51,9 @@ std::optional<Dimension> product(const Dimension& a, const Dimension& b);
 std::optional<Dimension> quotient(const Dimension& a, const Dimension& b);
 std::optional<Dimension> power(const Dimension& a, int exponent);
 
-/// Do these agree? Bare numbers fit everything, and the radian does not count.
+/// Whether these agree. Bare numbers fit everything, and the radian does not count.
 bool fits(const Dimension& found, const Dimension& wanted);
-/// Is this a number or an angle?
+/// Whether this is a number or an angle.
 bool is_pure(const Dimension& dimension);
 
 /// In units: "m", "N/m", "kg*m/s^3", "1" for a pure number.
@@ -61,7 +61,7 @@ std::string to_unit_text(const Dimension& dimension);
 /// In words and units: "a length [m]", "a bare number", "a quantity in [kg*m/s^3]".
 std::string to_words(const Dimension& dimension);
 
-/// Nothing if `found` may stand where `wanted` belongs, otherwise the reason: "a mass [kg] is expected here, not a length [m]".
+/// Nothing if `found` may be used where `wanted` is required, otherwise the reason: "a mass [kg] is expected here, not a length [m]".
 std::optional<std::string> check_dimension(const Dimension& found, const Dimension& wanted);
 
 }  // namespace pintle

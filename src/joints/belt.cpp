@@ -41,7 +41,7 @@ std::optional<Belt> belt_of(const JointDisplacement& displacement) {
 }
 
 bool is_at_end_of_range(const JointDisplacement& displacement, double gap) {
-  constexpr double kNear = 0.03;  // of what a turn winds, from where the gap jumps to its other end
+  constexpr double kNear = 0.03;  // as a fraction of the length wound per turn: distance from the place where the gap jumps to its other end
   const std::optional<Belt> belt = belt_of(displacement);
   return belt && belt->wound_per_turn() > 0 && std::abs(gap - belt->stretch) > (0.5 - kNear) * belt->wound_per_turn();
 }

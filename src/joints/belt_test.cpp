@@ -1,4 +1,4 @@
-// Belts and ropes on drums: the common battery, then ways of winding that can be followed by hand.
+// Belts and ropes on drums: the common battery, then cases of winding that can be followed by hand.
 #include "joints/belt.h"
 
 #include <gtest/gtest.h>
@@ -26,13 +26,13 @@ TEST(Belt, PassesTheBatteryOfJointDisplacements) {
   for (int i = 0; i < 200; ++i) {
     const Couple c = sample::random_couple(random);
     Belt belt{(random.coin() ? 1 : -1) * random.uniform(0.1, 0.15), random.coin() ? 0 : random.uniform(-0.05, 0.05), 0};
-    belt.length = belt(c.pose().z).gap + random.uniform(-0.01, 0.01);  // the jump by a full turn is at 0.03 m and more
+    belt.length = belt(c.pose().z).gap + random.uniform(-0.01, 0.01);  // the jump by a full turn is at least 0.03 m away
     sample::expect_all(function_of(belt), c, random);
     if (testing::Test::HasFailure()) return;
   }
 }
 
-// A string that unwinds from a disc draws its involute: from cos, sin of p on, at p + p_0 radii along the tangent.
+// A string that unwinds from a disc traces its involute: from (cos p, sin p), p radii along the tangent.
 TEST(Belt, UnwindsAlongAnInvolute) {
   for (const double side : {1.0, -1.0}) {
     Belt belt{0.3 * side, 0, 0};
@@ -49,7 +49,7 @@ TEST(Belt, UnwindsAlongAnInvolute) {
 }
 
 TEST(Belt, ADrumTakesInItsRadiusTimesItsAngle) {
-  Belt belt{0.2, 0, 0};  // the run hangs on the drum's right, which is on the left of the way down
+  Belt belt{0.2, 0, 0};  // the run hangs on the drum's right, which is on the left looking down the run
   Couple c = at_rest();
   c.qB = {0.2, -40, 0};
   belt.length += gap(belt, c);
@@ -59,14 +59,14 @@ TEST(Belt, ADrumTakesInItsRadiusTimesItsAngle) {
     c.qA = {0, 0, turned};
     c.qB = {0.2, -40 + 0.2 * turned, -1.7};
     EXPECT_NEAR(gap(belt, c), 0, 1e-12) << turned;
-    c.qB[1] += 0.6;  // slack by what is less than the 0.63 m of half a turn
+    c.qB[1] += 0.6;  // slack by less than the 0.63 m of half a turn
     EXPECT_NEAR(gap(belt, c), -0.6, 1e-12) << turned;
     c.qB[1] -= 1.2;
     EXPECT_NEAR(gap(belt, c), 0.6, 1e-12) << turned;
   }
 }
 
-// An open belt turns both pulleys the same way, a crossed one against each other; by their radii.
+// An open belt turns both pulleys in the same direction, a crossed one in opposite directions; in the ratio of their radii.
 TEST(Belt, TurnsPulleysByTheirRadii) {
   for (const double side : {1.0, -1.0})
     for (const double crossed : {1.0, -1.0}) {
@@ -83,7 +83,7 @@ TEST(Belt, TurnsPulleysByTheirRadii) {
     }
 }
 
-// The line of the force touches both discs: its moment about their centres is the tension times the radius.
+// The line of the force is tangent to both discs: its moment about their centres is the tension times the radius.
 TEST(Belt, PullsAlongTheTangentOfBothDiscs) {
   sample::Random random(12);
   for (int i = 0; i < 50; ++i) {

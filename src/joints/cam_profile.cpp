@@ -9,7 +9,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kSmooth = 1e-3;  // of the radius: a change of slope [m/rad] that rounded numbers may make
+constexpr double kSmooth = 1e-3;  // as a fraction of the radius: largest change of slope [m/rad] that rounded numbers may cause
 
 Planar::Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 std::array<double, 1> in_turn(double angle) { return {angle - kTurn * std::floor(angle / kTurn)}; }
@@ -31,7 +31,7 @@ CurvePoint CamProfile::pitch(double angle) const {
   return {r * u, d * u + r * v, (dd - r) * u + 2 * d * v};
 }
 
-// What is no further from c than `way` is seen from the axis within this angle of it.
+// Points of the curve within the distance `way` of c are seen from the axis within this angle of c.
 double CamProfile::foot(const Planar::Point& c) const {
   const auto sight = [&c](double way) { return way < c.norm() ? std::asin(way / c.norm()) : kTurn / 2; };
   const auto point = [this](double angle) { return Planar::Point((zero_lift_radius() + cam_.lift.value(in_turn(angle))) * direction(angle)); };
@@ -96,7 +96,7 @@ std::string CamProfile::fault() const {
     if (!cam_.flat && roller > 0 && curvature > -roller && curvature <= 0)
       return fmt::format("at {:g} deg the pitch curve is bent more than the roller (radius of curvature {:.4g} m): the cam would be undercut", degrees, curvature + roller);
   }
-  constexpr double kClosed = 1e-6;  // of the radius: what rounded numbers in a model may be off
+  constexpr double kClosed = 1e-6;  // as a fraction of the radius: tolerance for rounded numbers in a model
   if (std::abs(end[0] - start[0]) > kClosed * start[0]) return fmt::format("the profile does not close: after a turn the lift is {:.4g} m higher", end[0] - start[0]);
   if (std::abs(end[1] - start[1]) > kSmooth * start[0]) return fmt::format("the profile has a corner where it closes: its slope changes from {:.4g} to {:.4g} m/rad", end[1], start[1]);
   return {};

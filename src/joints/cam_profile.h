@@ -1,4 +1,4 @@
-// The profile of a cam, as a lift over its base circle, and the gap between it and what follows it. theory/cams
+// The profile of a cam, as a lift over its base circle, and the gap between it and its follower. theory/cams
 #pragma once
 
 #include <array>
@@ -20,20 +20,20 @@ class CamProfile {
   explicit CamProfile(const Cam& cam);
 
   bool flat() const { return cam_.flat; }
-  /// With first and second derivative by the angle [m]. Of a roller or pin: the polar radius of the pitch curve, on which its centre goes
-  /// round the cam, Eq. (1.1). Of a flat face: its distance from the cam's axis when the angle is that of its normal, Eq. (1.2).
+  /// Radius [m] with its first and second derivatives by the angle. For a roller or pin: the polar radius of the pitch curve, the path of its
+  /// centre around the cam, Eq. (1.1). For a flat face: its distance from the cam's axis when the angle is that of its normal, Eq. (1.2).
   std::array<double, 3> radius(double angle) const;
-  /// Of the radius over the angle, with the period of a turn.
+  /// Bends of the radius as a function of the angle, with the period of a turn.
   const Bends& bends() const { return bends_; }
-  /// The polar angle of the point of the pitch curve that is nearest to c, Eq. (2.1).
+  /// The polar angle of the point of the pitch curve nearest to c, Eq. (2.1).
   double foot(const Planar::Point& c) const;
-  /// A point of the cam's surface, Eqs. (1.3), (1.4); the angle is that of radius().
+  /// A point of the cam's surface, Eqs. (1.3), (1.4); the angle is the argument of radius().
   Planar::Point surface(double angle) const;
-  /// Radius of curvature of the surface there, Eqs. (1.5), (1.6) [m]. Where it is not positive on a convex part, the follower cannot follow.
+  /// Radius of curvature of the surface there, Eqs. (1.5), (1.6) [m]. If it is not positive on a convex part, the follower cannot follow.
   double surface_curvature(double angle) const;
-  /// Where the follower is at a relative pose: polar angle, Eq. (2.1), and the angle from the y axis of its marker to the normal, Eq. (2.7) [rad].
+  /// The position of the follower at a relative pose: polar angle, Eq. (2.1), and the angle from the y axis of its marker to the normal, Eq. (2.7) [rad].
   CamContactPlace place(const Planar::Vec& z) const;
-  /// Why no follower can run on it; "" if one can.
+  /// Why no follower can run on the profile; "" if one can.
   std::string fault() const;
 
  private:
@@ -42,7 +42,7 @@ class CamProfile {
 
   friend struct CamGap;
   Cam cam_;
-  double hollow_;  // the least radius of curvature of the pitch curve's hollow parts [m]
+  double hollow_;  // the least radius of curvature on the concave parts of the pitch curve [m]
   Bends bends_;
 };
 

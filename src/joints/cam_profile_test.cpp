@@ -1,4 +1,4 @@
-// Profiles of cams by hand: eccentric circles, which have closed forms, and what no follower can run on.
+// Profiles of cams by hand: eccentric circles, which have closed forms, and profiles on which no follower can run.
 #include "joints/cam_profile.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(CamProfile, AnEccentricCircleHasItsSurface) {
     }
 }
 
-// Wherever the roller is, near the cam or far from it, its distance is that of the centres.
+// Wherever the roller is, near the cam or far from it, its gap follows from the distance of the centres.
 TEST(CamGap, IsTheDistanceFromAnEccentricCircle) {
   const CamProfile profile = eccentric();
   const CamGap gap{&profile};
@@ -49,7 +49,7 @@ TEST(CamGap, IsTheDistanceFromAnEccentricCircle) {
   }
 }
 
-// Of a cam with four lobes, hollow between them, against the nearest of very many points.
+// A cam with four lobes, concave between them, compared with the nearest of very many points.
 TEST(CamGap, IsTheDistanceFromTheNearestPoint) {
   const CamProfile profile({lift("0.004*(1 - cos(4*angle))"), 0.05, 0.01, false});
   ASSERT_EQ(profile.fault(), "");

@@ -27,7 +27,7 @@ constexpr std::array<ComponentInfo, 1> kSlide{{{.name = "slide"}}};
 constexpr std::array<ComponentInfo, 1> kStroke{{{.name = "stroke"}}};
 constexpr std::array<ComponentInfo, 2> kSlideAngle{{{.name = "slide"}, kTurn}};
 
-constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
+constexpr double kAny = -std::numeric_limits<double>::infinity();  // a minimum that allows all values
 constexpr KeyInfo kStretch{.key = "stretch", .unit = "m", .minimum = kAny, .otherwise = "0: without load", .meaning = "how much longer than unloaded it is when assembled: its tension over its stiffness; negative: slack, or a rod that is compressed"};
 constexpr std::array<KeyInfo, 2> kTie{{
     {.key = "length", .unit = "m", .minimum_exclusive = true, .of_time = true, .meaning = "distance between the points without load; as a function of t it is driven: a winch, an actuator"},
@@ -85,7 +85,7 @@ JointDisplacement make_mesh(const Geometry& g) {
 }
 JointDisplacement make_rack(const Geometry& g) { return RackMesh{value(g, "radius", 1), 1, 0, value(g, "pressure_angle", 0) > 0}; }
 
-// A side is the place of its word.
+// A side is given by the index of its word.
 JointDisplacement make_belt(const Geometry& g) {
   const double first = value(g, "first_side", 0), second = value(g, "second_side", first);
   const auto signed_radius = [&g](const char* key, double side) { return value(g, key, 0) * (side > 0 ? -1 : 1); };
@@ -106,7 +106,7 @@ GeometryFault belt_fault(const Geometry& g) {
 JointDisplacement make_cam(const Geometry&) { return CamGap{}; }
 JointDisplacement make_edge(const Geometry&) { return EdgeGap{}; }
 
-// The gear's keys `radii` and `mesh` are lists and words; the reader turns them into radius_first, radius_second, internal. The profiles of cams and edges are the model's.
+// The gear's keys `radii` and `mesh` are lists and words, which the reader turns into radius_first, radius_second, internal. The profiles of cams and edges belong to the model.
 std::vector<JointTypeInfo>& types() {
   static std::vector<JointTypeInfo> all{
       {.word = "revolute", .meaning = "a pin: holds two points together, the angle is free", .gap = kXY, .free = kAngle, .keys = {}, .make = make_pose},

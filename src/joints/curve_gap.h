@@ -1,4 +1,4 @@
-// What is on the outer side of a plane curve: its distance, the nearest point, and how it slips along. theory/cams sections 2 and 4.
+// A point on the outer side of a plane curve: its distance from the curve, the nearest point, and its slip along the curve. theory/cams sections 2 and 4.
 #pragma once
 
 #include <algorithm>
@@ -18,16 +18,16 @@ struct CurvePoint {
 
   Planar::Point tangent() const { return d.normalized(); }
   Planar::Point normal() const { return {tangent()[1], -tangent()[0]}; }
-  /// 1/m, positive where it is convex as seen from outside.
+  /// 1/m, positive where the curve is convex as seen from outside.
   double curvature() const { return Planar::cross(d, dd) / (d.squaredNorm() * d.norm()); }
 };
 
-/// Of a point c and the curve's nearest one to it: component 0 how far it is from the curve, Eqs. (2.2)-(2.4); component 1 the speed along the curve, in
-/// the direction of d, of the surface of a disc of this radius about c, Eq. (2.8). It is of a slip, which is no rate of a function of the pose: its value is
-/// 0, and the derivative of its gradient, row i by z_k, not symmetric.
+/// For a point c and the curve's point nearest to it. Component 0 is the distance of c from the curve, Eqs. (2.2)-(2.4). Component 1 is the speed along the
+/// curve, in the direction of d, of the surface of a disc of this radius about c, Eq. (2.8). This slip is not the rate of a function of the pose: its value
+/// is 0, and the derivative of its gradient, row i by z_k, is not symmetric.
 std::array<GapFunction, 2> gap_and_slip_over(const CurvePoint& nearest, const Planar::Point& c, double radius);
 
-/// Newton's method for (c - P) P' = 0, Eq. (2.1), from a parameter near the nearest point; none where it does not lead to one.
+/// Newton's method for (c - P) P' = 0, Eq. (2.1), from a parameter near the nearest point; none if it does not converge to one.
 template <class Curve>
 std::optional<double> nearest_by_newton(const Curve& curve, const Planar::Point& c, double parameter) {
   constexpr int kMost = 20, kMany = 8;
@@ -42,8 +42,8 @@ std::optional<double> nearest_by_newton(const Curve& curve, const Planar::Point&
   return {};
 }
 
-/// The same from the nearest of points between two parameters that are no further than `apart` from each other, by halves between its neighbours where
-/// Newton's method does not stay there. point(parameter) is the curve's point alone.
+/// The same, starting from the nearest of sample points between two parameters, at most `apart` from each other; by bisection between that point's
+/// neighbours if Newton's method leaves this interval. point(parameter) is the curve's point alone.
 template <class Curve, class Point>
 double nearest_by_sampling(const Curve& curve, const Point& point, const Planar::Point& c, double low, double high, double apart) {
   constexpr double kMost = 360;  // intervals
@@ -66,8 +66,8 @@ double nearest_by_sampling(const Curve& curve, const Point& point, const Planar:
   return 0.5 * (before + behind);
 }
 
-/// The least radius of curvature of a curve's hollow parts between two parameters [m]: what is nearer to the curve has one nearest point,
-/// which Newton's method finds; further away there may be another one that is nearer. Infinite where nothing is hollow.
+/// The least radius of curvature on a curve's concave parts between two parameters [m]. A point nearer to the curve than this has one
+/// nearest point, which Newton's method finds; farther away another point may be nearer. Infinite if no part is concave.
 template <class Curve>
 double least_hollow_radius(const Curve& curve, double low, double high) {
   constexpr int kPoints = 720;
@@ -76,13 +76,13 @@ double least_hollow_radius(const Curve& curve, double low, double high) {
   return 1 / most;
 }
 
-/// The parameter of the point that is nearest to c, Eq. (2.1): by Newton's method from that of the point `below` c, and where another point may be
-/// nearer, or Newton's method fails, from the nearest of many. `hollow` is the least_hollow_radius; half_range(distance) is how far from `below` a point's
-/// parameter may be if it is no further from c than that.
+/// The parameter of the point nearest to c, Eq. (2.1): by Newton's method from the parameter of the point `below` c, and where another point may be
+/// nearer, or Newton's method fails, from the nearest of many samples. `hollow` is the least_hollow_radius; half_range(distance) is how far from `below`
+/// the parameter of a point within that distance of c may be.
 template <class Curve, class Point, class HalfRange>
 double nearest_parameter(const Curve& curve, const Point& point, const Planar::Point& c, double below, double hollow, const HalfRange& half_range) {
-  constexpr double kSurely = 0.9;  // of the least hollow radius, which is that at some points only
-  constexpr double kPart = 0.25;  // of it: how far apart points are looked at. Of the 4500 of edge_profile_test one is given a point that is not the nearest with 0.5, and 13 with 2
+  constexpr double kSurely = 0.9;  // as a fraction of the least hollow radius, which is known at some points only
+  constexpr double kPart = 0.25;  // largest distance of sample points, as a fraction of it. Of the 4500 points of edge_profile_test one is given a point that is not the nearest with 0.5, and 13 with 2
   const std::optional<double> found = nearest_by_newton(curve, c, below);
   const double distance = (c - point(found ? *found : below)).norm();
   if (found && distance < kSurely * hollow) return *found;
@@ -90,7 +90,7 @@ double nearest_parameter(const Curve& curve, const Point& point, const Planar::P
   return found && distance < (c - point(sampled)).norm() ? *found : sampled;
 }
 
-/// Where the slope of a function of one variable jumps by more than `least` between two places, with the slopes on either side; none: nowhere.
+/// Where the slope of a function of one variable jumps by more than `least` between two places, with the slopes on either side; none if it does not.
 struct Corner {
   double at, slope_before, slope_behind;
 };

@@ -11,13 +11,13 @@
 namespace pintle {
 namespace {
 
-constexpr int kPoints = 720;       // of a way, that are looked at
-constexpr double kSmooth = 1e-3;  // change of slope that rounded numbers may make [-]
+constexpr int kPoints = 720;       // points at which a range is examined
+constexpr double kSmooth = 1e-3;  // change of slope that rounded numbers may cause [-]
 
-// Where an edge is looked at, ascending: at the ends of equal parts, and within each piece between kinks of its height, which may be shorter.
+// Places at which an edge is examined, ascending: the ends of equal parts, and points within each piece between kinks of its height, which may be shorter than a part.
 std::vector<double> places_looked_at(const Edge& edge) {
   constexpr int kParts = 2000, kOfPiece = 16;
-  constexpr std::size_t kMostPieces = 200;  // of more, as of a measured road, the ends of parts tell enough
+  constexpr std::size_t kMostPieces = 200;  // with more pieces, as in a measured road, the ends of the parts suffice
   std::vector<double> places, kinks = switching_points(edge.height, edge.from, edge.to, kPoints, kMostPieces);
   for (int i = 0; i <= kParts; ++i) places.push_back(edge.from + (edge.to - edge.from) * i / kParts);
   for (std::size_t k = 1; k < kinks.size() && kinks.size() <= kMostPieces; ++k)
@@ -46,7 +46,7 @@ EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge) {
   bends_ = bends_between(places, bend);
 }
 
-// What is no further from c than `way` is within this way along the line.
+// Points within the distance `way` of c are within the same distance of it along x.
 double EdgeProfile::nearest(const Planar::Point& c) const {
   const auto point = [this](double u) { return Planar::Point(-u, edge_.height.value(std::array{-u})); };
   return -nearest_parameter([this](double u) { return at(-u); }, point, c, -c[0], hollow_, [](double way) { return way; });

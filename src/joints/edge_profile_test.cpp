@@ -1,4 +1,4 @@
-// Where a curved edge is nearest to what is above it, against the nearest of very many points.
+// The point of a curved edge nearest to a point above it, compared with the nearest of very many points.
 #include "joints/edge_profile.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ double distance_by_many_points(const EdgeProfile& edge, const Planar::Point& c) 
   return least;
 }
 
-// Teeth of a rack, a road with one narrow bump, and a groove: near them, above a hollow, and far away.
+// Teeth of a rack, a road with one narrow bump, and a groove: near them, above a concave part, and far away.
 TEST(EdgeProfile, HasItsNearestPoint) {
   const EdgeProfile edges[] = {edge_of("2 mm*(sin(2*pi*x/12 mm) + 0.25*sin(4*pi*x/12 mm))", -0.1, 0.1), edge_of("5 mm*exp(-(x/20 mm)^2)", -0.1, 0.1),
                                edge_of("-1 mm*exp(-(x/2 mm)^2)", -0.1, 0.1)};

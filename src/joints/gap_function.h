@@ -17,7 +17,7 @@ struct BasicGapFunction {
 };
 using GapFunction = BasicGapFunction<Planar>;
 
-/// The turn of the second frame against the first one.
+/// The turn of the second frame relative to the first.
 inline GapFunction turn_of(const Planar::Vec& z) {
   GapFunction g;
   g.gap = z[2];
@@ -25,8 +25,7 @@ inline GapFunction turn_of(const Planar::Vec& z) {
   return g;
 }
 
-/// Calls use(component, function) for what p, which answers a pose with functions of it, has: its gap, and what it leaves free beside it: an opening and a turn,
-/// or a slip.
+/// Calls use(component, function) for the functions of the pose that p has: its gap and its free functions, which are an opening and a turn, or a slip.
 template <class P, class Vec, class Use>
 void visit_functions(const P& p, const Vec& z, Use&& use) {
   if constexpr (requires { p.gap_and_slip(z); }) {
@@ -42,8 +41,8 @@ void visit_functions(const P& p, const Vec& z, Use&& use) {
   }
 }
 
-/// Rod and rope: the distance of the two points less the length. theory/joints Eq. (2.11). Undefined at zero distance;
-/// there the direction is taken along F's x axis.
+/// Rod and rope: the distance of the two points minus the length. theory/joints Eq. (2.11). At zero distance, where the
+/// direction is undefined, F's x axis is used.
 template <class S>
 struct BasicDistance {
   double length = 1;  // [m]
@@ -60,7 +59,7 @@ struct BasicDistance {
     for (int k = 0; k < S::kDim; ++k) g.gradient[k] = z[k] / distance;
     for (int i = 0; i < S::kDim; ++i)
       for (int k = 0; k < S::kDim; ++k) {
-        double sum = 0;  // of the squares across, in which nothing is lost
+        double sum = 0;  // of the squares of the other components: free of cancellation
         for (int c = 0; c < S::kDim && i == k; ++c) sum += c == i ? 0 : g.gradient[c] * g.gradient[c];
         g.hessian(i, k) = (i == k ? sum : -g.gradient[i] * g.gradient[k]) / distance;
       }
@@ -69,17 +68,17 @@ struct BasicDistance {
 };
 using Distance = BasicDistance<Planar>;
 
-/// Two gears in mesh, centred on F and M: how far their pitch circles have slipped. Eq. (2.12).
+/// Two gears in mesh, centred on F and M: the slip of their pitch circles. Eq. (2.12).
 ///   gap = sign r2 angle - (r1 + sign r2) direction of the line of centres + phase, sign = +1 external, -1 internal
 struct Mesh {
   double radius_first = 1, radius_second = 1;  // pitch radii [m]
   double sign = 1;
   double phase = 0;                            // makes the gap zero as assembled [m]
-  bool opens = false;                          // teeth push the gears apart: the opening counts
-  bool rubs = false;                           // teeth rub: the turn counts
+  bool opens = false;                          // teeth push the gears apart: the opening is a component
+  bool rubs = false;                           // teeth have friction: the turn is a component
 
   int gap_functions() const { return rubs ? 3 : opens ? 2 : 1; }
-  /// How much further the centres are apart, or nearer in an internal mesh, than where the pitch circles touch. Eq. (2.20)
+  /// How much farther apart the centres are (nearer, in an internal mesh) than where the pitch circles touch. Eq. (2.20)
   GapFunction opening(const Planar::Vec& z) const {
     GapFunction g = Distance{std::abs(radius_first + sign * radius_second)}(z);
     g.gap *= sign;
@@ -104,17 +103,17 @@ struct Mesh {
   }
 };
 
-/// A pinion centred on F that rolls along the x axis of M: how far it has slipped. Eq. (2.13).
+/// A pinion centred on F that rolls along the x axis of M: its slip. Eq. (2.13).
 ///   gap = -(x cos angle + y sin angle) - side radius angle + phase; side = +1 with the pinion on the rack's +y side
 struct RackMesh {
   double radius = 1;  // [m]
   double side = 1;
   double phase = 0;   // [m]
-  bool opens = false;  // teeth push the pinion off the rack: the opening counts
-  bool rubs = false;   // teeth rub: the turn counts
+  bool opens = false;  // teeth push the pinion off the rack: the opening is a component
+  bool rubs = false;   // teeth have friction: the turn is a component
 
   int gap_functions() const { return rubs ? 3 : opens ? 2 : 1; }
-  /// How much further the pinion's centre is from the rack than its pitch radius. Eq. (2.20)
+  /// How much farther the pinion's centre is from the rack than its pitch radius. Eq. (2.20)
   GapFunction opening(const Planar::Vec& z) const {
     GapFunction g;
     const double c = side * std::cos(z[2]), s = side * std::sin(z[2]);
@@ -140,18 +139,18 @@ struct RackMesh {
   }
 };
 
-/// Any other function of the pose, by its address and up to four numbers: what a joint type brings that is registered from outside.
+/// Any other function of the pose, by its address and up to four numbers: the gap of a joint type registered from outside.
 struct FunctionGap {
   GapFunction (*at)(const Planar::Vec& z, const double* parameters) = nullptr;
   std::array<double, 4> parameters{};
-  double period = 0;  // the pose tells the gap up to multiples of this; 0: it tells the gap
+  double period = 0;  // the pose determines the gap up to multiples of this; 0: uniquely
 
   GapFunction operator()(const Planar::Vec& z) const { return at(z, parameters.data()); }
 };
 
 class CamProfile;
 
-/// A cam and its follower: how far they are apart along their common normal, less than 0 where they overlap, and how fast they slip along each other.
+/// A cam and its follower: their distance along their common normal, negative where they overlap, and the speed of their slip along each other.
 /// theory/cams Eqs. (2.2)-(2.9). The profile belongs to the joint.
 struct CamGap {
   const CamProfile* profile = nullptr;
@@ -162,7 +161,7 @@ struct CamGap {
 
 class EdgeProfile;
 
-/// A pin, roller or wheel and the curved edge below it, in the same way. theory/cams section 4. The profile belongs to the joint.
+/// The same for a pin, roller or wheel and the curved edge below it. theory/cams section 4. The profile belongs to the joint.
 struct EdgeGap {
   const EdgeProfile* profile = nullptr;
 

@@ -1,5 +1,5 @@
-// What every joint displacement must satisfy, at any placement and motion of two bodies. The room of the system runs the same checks
-// over the joint types of the catalog.
+// Properties that every joint displacement must have, at any placement and motion of two bodies. The tests of src/system run the
+// same checks over the joint types of the catalog.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ struct Couple {
   }
 };
 
-/// Frames and motions at random, the two markers `apart` or farther from each other.
+/// Frames and motions at random, with the two markers at least `apart` from each other.
 inline void place_at_random(Random& random, double apart, Couple& c) {
   do {
     c.qA = random.vector<Planar::Vec>(-2, 2);
@@ -64,7 +64,7 @@ void expect_close(const M& found, const M& expected, double tolerance, const cha
   EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), tolerance * size) << what << "\n" << found << "\n\n" << expected;
 }
 
-/// Columns: slopes of f at the couple moved along each coordinate.
+/// Columns: derivatives of f as the couple is moved along each coordinate.
 template <int Rows, class F>
 Eigen::Matrix<double, Rows, 6> slopes(const Couple& c, F&& f) {
   Eigen::Matrix<double, Rows, 6> D;
@@ -76,7 +76,7 @@ inline void expect_derivatives(const JointDisplacement& displacement, const Coup
   using Vec = Planar::Vec;
   const JointKinematics r = kinematics(displacement, c);
   Eigen::Matrix<double, 3, 6> of_gap = jacobian(r);
-  if (has_slip(displacement)) of_gap.row(kSlip).setZero();  // is the rate of nothing
+  if (has_slip(displacement)) of_gap.row(kSlip).setZero();  // it is not the rate of a function
   expect_close<Eigen::Matrix<double, 3, 6>>(of_gap, slopes<3>(c, [&](const Couple& x) { return Vec(kinematics(displacement, x).gap); }),
                                             1e-8, "Jacobian");
   expect_close<Vec>(r.rate, jacobian(r) * c.v(), 1e-13, "rate = G v");
@@ -103,7 +103,7 @@ inline void expect_derivatives(const JointDisplacement& displacement, const Coup
   if (!has_slip(displacement)) expect_close<Eigen::Matrix<double, 6, 6>>(geometric, geometric.transpose(), 1e-13, "its symmetry");
 }
 
-/// The forces on both bodies cancel, and so do their moments about `about`.
+/// The forces on both bodies cancel, as do their moments about `about`.
 inline void expect_opposite_forces(const JointDisplacement& displacement, const Couple& c, const Planar::Vec& force, const Planar::Point& about) {
   const Vec6 Q = jacobian(kinematics(displacement, c)).transpose() * force;
   const Planar::Point FA = Q.segment<2>(0), FB = Q.segment<2>(3);
@@ -113,7 +113,7 @@ inline void expect_opposite_forces(const JointDisplacement& displacement, const 
   EXPECT_NEAR(moment, 0, 1e-13 * size * (1 + about.norm()));
 }
 
-/// What z feels is what the gap's force makes of it: the same forces on the bodies.
+/// The force in the components of z is equivalent to the gap's force: the same forces on the bodies.
 inline void expect_pose_force(const JointDisplacement& displacement, const Couple& c, const Planar::Vec& force) {
   const RelativePose pose = c.pose();
   const Planar::Vec f = to_pose_force(displacement, pose, force);
@@ -124,7 +124,7 @@ inline void expect_pose_force(const JointDisplacement& displacement, const Coupl
   EXPECT_LE((world - Planar::Point((r.GB().transpose() * force).head<2>())).norm(), 1e-13 * (1 + world.norm()));
 }
 
-/// Both bodies carried along by the same rigid motion (turn, shift; spin, speed): gap, rate and gap'' stay.
+/// Both bodies carried along by the same rigid motion (turn, shift; spin, speed): gap, rate and gap'' do not change.
 inline void expect_indifferent_to_rigid_motion(const JointDisplacement& displacement, const Couple& c, Random& random) {
   const Planar::Vec move = random.vector<Planar::Vec>(-3, 3), velocity = random.vector<Planar::Vec>(-4, 4);
   const Planar::Motion carrier = Planar::Motion::of(move, velocity);

@@ -9,7 +9,7 @@
 
 namespace pintle {
 
-/// Joints whose gap is z itself, less an offset; the law has no stiffness in the components that stay free.
+/// Joints whose gap is z itself minus an offset; the law has no stiffness in the free components.
 template <class S>
 struct BasicSelection {
   typename S::Vec offset = S::Vec::Zero();  // e.g. full turns of a weld's angle
@@ -19,7 +19,7 @@ struct BasicSelection {
 
 using Selection = BasicSelection<Planar>;
 
-/// The kinds of gaps that there are in a space.
+/// The kinds of gaps in a space.
 template <class S>
 struct DisplacementsOf;
 template <>
@@ -34,7 +34,7 @@ template <class S>
 using BasicDisplacement = typename DisplacementsOf<S>::Type;
 using JointDisplacement = BasicDisplacement<Planar>;
 
-/// The gap between two bodies as a law wants it; functions of the pose stand in its first components.
+/// The gap between two bodies in the form laws use; functions of the pose come first.
 ///   rate = GA vA + GB vB,   gap'' = GA aA + GB aB + bias
 template <class S>
 struct BasicJointKinematics {
@@ -51,7 +51,7 @@ BasicJointKinematics<S> read(const BasicSelection<S>& displacement, const typena
   return {pose.z - displacement.offset, pose.rate, pose.bias, S::template GapMap<double>::of(pose)};
 }
 
-/// What displacements answer, by their space S.
+/// The functions of displacements, by their space S.
 template <class S>
 struct DisplacementReader {
   using Vec = typename S::Vec;
@@ -76,7 +76,7 @@ int count_functions(const Displacement& displacement) {
       displacement);
 }
 
-/// Makes of a gap that the pose tells up to whole turns the one that is next to `carried`, what a method has followed step by step.
+/// Of the values of a gap that the pose determines only up to whole turns, takes the one nearest to `carried`, which a method has followed step by step.
 template <class Displacement, class Gap>
 void count_turns(const Displacement& displacement, double carried, Gap&& gap) {
   std::visit(
@@ -87,14 +87,14 @@ void count_turns(const Displacement& displacement, double carried, Gap&& gap) {
       displacement);
 }
 
-/// Component 1 of a displacement that slips: its rate is a speed along the surfaces, and its gap no function of the pose but what is carried.
+/// The component of the slip, in displacements that have one: its rate is a speed along the surfaces, and its gap is not a function of the pose but is carried.
 constexpr int kSlip = 1;
 template <class Displacement>
 bool has_slip(const Displacement& displacement) {
   return std::visit([](const auto& p) { return requires(const Planar::Vec& z) { p.gap_and_slip(z); }; }, displacement);
 }
 
-/// Lets the turn of gears against each other, or of a pinion against its rack, be a component of the gap: 2, for the friction of their teeth.
+/// Makes the turn of gears relative to each other, or of a pinion relative to its rack, component 2 of the gap, for the friction of their teeth.
 inline void let_teeth_rub(JointDisplacement& displacement) {
   if (auto* gears = std::get_if<Mesh>(&displacement)) gears->rubs = true;
   if (auto* rack = std::get_if<RackMesh>(&displacement)) rack->rubs = true;
@@ -114,11 +114,11 @@ void for_each_function(const Displacement& displacement, const Vec& z, Use&& use
 template <class Pose>
 using SpaceOf = typename Pose::S;
 
-/// The displacement at a relative pose, with what goes with it.
+/// The displacement at a relative pose, with its rate, map and bias.
 template <class Displacement, class Pose>
 auto read(const Displacement& displacement, const Pose& pose) { return DisplacementReader<SpaceOf<Pose>>::read(displacement, pose); }
 
-/// The law's force as seen by z: J' f.
+/// The law's force in the components of z: J' f.
 template <class Displacement, class Pose, class Vec>
 auto to_pose_force(const Displacement& displacement, const Pose& pose, const Vec& force) {
   return DisplacementReader<SpaceOf<Pose>>::to_pose_force(displacement, pose, force);
@@ -136,7 +136,7 @@ auto rate_gradient(const Displacement& displacement, const Pose& pose, const Mot
   return DisplacementReader<SpaceOf<Pose>>::rate_gradient(displacement, pose, A, B);
 }
 
-/// d(bias)/dq over (qA, qB) at constant velocities; of a gap that is a function of the pose without the function's third derivative. In the plane.
+/// d(bias)/dq over (qA, qB) at constant velocities, in the plane. If the gap is a function of the pose, the function's third derivative is left out.
 Eigen::Matrix<double, 3, 6> bias_gradient(const JointDisplacement& displacement, const RelativePose& pose, const Planar::Motion& A, const Planar::Motion& B);
 
 }  // namespace pintle

@@ -1,5 +1,5 @@
-// The common battery over the alternatives of JointDisplacement (a new one must be given a sample here to compile), then examples of
-// every one that can be followed by hand.
+// The common battery over the alternatives of JointDisplacement (a new one must be given a sample here to compile), then an example
+// of each that can be followed by hand.
 #include "joints/joint_displacement.h"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TYPED_TEST(AnyJointDisplacement, IsFiniteFarOut) {
   }
 }
 
-// Eq. (2.1): the place of M in the axes of F.
+// Eq. (2.1): the position of M in the axes of F.
 TEST(RelativePose, ByHand) {
   Couple c;
   c.F = S::Frame::at({1, 0}, 0);
@@ -105,7 +105,7 @@ TEST(RelativePose, ByHand) {
   c.vB = {1, 0, 3};        // M moves with (1, 0) + 3 (-2, 0)
   const RelativePose p = c.pose();
   EXPECT_NEAR((p.z - Vec(1, -3, 0)).norm(), 0, 1e-15);  // d = (3, 1) in axes x = (0, 1), y = (-1, 0)
-  // d' = (-5, 0) - (-2, 0) = (-3, 0); less w x d = 2 (-1, 3): (-1, -6) in F's axes is (-6, 1)
+  // d' = (-5, 0) - (-2, 0) = (-3, 0); minus w x d = 2 (-1, 3): (-1, -6) in F's axes is (-6, 1)
   EXPECT_NEAR((p.rate - Vec(-6, 1, 1)).norm(), 0, 1e-14);
   EXPECT_NEAR((p.world_force({5, 0, 0}) - S::Point(0, 5)).norm(), 0, 1e-15);
 }
@@ -140,7 +140,7 @@ TEST(Distance, HasADirectionEvenAtZero) {
   EXPECT_TRUE(g.hessian.allFinite());
 }
 
-// Centres 0.1 m further apart open an external mesh, and close an internal one; a pinion 0.1 m further from its rack opens it on either side.
+// Centres 0.1 m farther apart open an external mesh, and close an internal one; a pinion 0.1 m farther from its rack opens it on either side.
 TEST(Mesh, OpensAsItsCentresSeparate) {
   EXPECT_NEAR((Mesh{1, 2, 1, 0, true}).opening({0, 3.1, 0.4}).gap, 0.1, 1e-15);
   EXPECT_NEAR((Mesh{2, 1, -1, 0, true}).opening({0, 1.1, 0.4}).gap, -0.1, 1e-15);
@@ -179,7 +179,7 @@ TEST(Mesh, InternalWheelsTurnTogether) {
   }
 }
 
-// A planet of 1 m on a sun of 2 m that stands still: one turn of the carrier turns the planet by three.
+// A planet of 1 m on a fixed sun of 2 m: one turn of the carrier turns the planet three times.
 TEST(Mesh, PlanetRollsAroundItsSun) {
   const Mesh mesh{2, 1, 1, 0};
   Couple c;

@@ -1,10 +1,10 @@
-// A bushing: full matrices of stiffness and damping, a load that it carries unstretched, and a rest position of its own.
+// A bushing: full matrices of stiffness and damping, a preload in the undeformed state, and a rest position of its own.
 //
 //   f = f_0 - K (e - e_0) - C e'            theory/joints Eq. (3.10)
 //   V = 1/2 (e - e_0)' K (e - e_0) - f_0' (e - e_0)
 //   P = e'' C e'  >= 0
 //
-// K and C are symmetric and positive semi-definite, which the reader demands.
+// K and C are symmetric and positive semi-definite; the reader checks this.
 #pragma once
 
 #include <string_view>
@@ -17,7 +17,7 @@ namespace pintle {
 struct BushingLaw {
   static constexpr std::string_view kWord = "bushing";
   Planar::Mat K = Planar::Mat::Zero();        // [N/m, N/rad, N*m/rad]
-  Planar::Mat C = Planar::Mat::Zero();        // the same by second
+  Planar::Mat C = Planar::Mat::Zero();        // the same times seconds
   Planar::Vec preload = Planar::Vec::Zero();  // on the second body at the rest position [N, N, N*m]
   Planar::Vec offset = Planar::Vec::Zero();   // the rest position [m, m, rad]
 

@@ -78,7 +78,7 @@ BushingLaw bushing_of(const LawSetting& at) {
   return law;
 }
 
-// Lengths and angles made comparable by the diagonal, so that the sign of the least eigenvalue does not drown in rounding.
+// Lengths and angles are made comparable by the diagonal, so that the sign of the least eigenvalue is not lost in rounding.
 bool is_semi_definite(const Planar::Mat& m) {
   Planar::Vec size = m.diagonal().cwiseAbs().cwiseSqrt();
   for (int i = 0; i < 3; ++i)
@@ -100,7 +100,7 @@ LawFault bushing_fault(const LawSetting& at) {
   for (const auto& [m, word, beside] : {std::tuple(&law.K, "stiffness", &kStiffnessBeside), std::tuple(&law.C, "damping", &kDampingBeside)}) {
     if (is_semi_definite(*m)) continue;
     constexpr std::array<std::pair<int, int>, 3> kPlaces{{{0, 1}, {0, 2}, {1, 2}}};
-    const char* key = word;  // the boldest of those that couple
+    const char* key = word;  // the coupling term with the largest ratio
     double boldest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const double beside_it = std::abs(at.number((*beside)[i])), on_it = std::sqrt((*m)(kPlaces[i].first, kPlaces[i].first) * (*m)(kPlaces[i].second, kPlaces[i].second));
@@ -116,7 +116,7 @@ LawFault bushing_fault(const LawSetting& at) {
 
 void make_bushing(const LawSetting& at, Law& law) { law.add(std::make_unique<LawPartOf<BushingLaw>>(bushing_of(at))); }
 
-// Where rubber hardens or rubs inside.
+// The held lengths in which rubber hardens or has internal friction.
 std::vector<int> held_lengths(const LawSetting& at) {
   std::vector<int> all;
   for (int k = 0; k < 2; ++k)
@@ -167,7 +167,7 @@ std::vector<LawInfo>& laws() {
 
 }  // namespace
 
-// A rope's spring and damper pull only.
+// A rope's spring and damper only pull.
 void make_linear(const LawSetting& at, Law& law) {
   const LinearLaw linear{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping")};
   if (at.one_sided) law.add(std::make_unique<LawPartOf<TensionLaw>>(TensionLaw{linear.k[0], linear.c[0]}));

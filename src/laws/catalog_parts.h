@@ -1,4 +1,4 @@
-// The parts that the catalog of laws is put together from, each a file.
+// The parts from which the catalog of laws is assembled, one file each.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-inline constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
+inline constexpr double kAny = -std::numeric_limits<double>::infinity();  // a minimum that allows all values
 /// Joint types whose laws push as well as pull.
 inline constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
 
@@ -25,9 +25,9 @@ void add_bearing_laws(std::vector<LawInfo>& all);
 void add_flexure_laws(std::vector<LawInfo>& all);
 /// Clearance and contact.
 void add_contact_laws(std::vector<LawInfo>& all);
-/// Stops of what a joint leaves free.
+/// Stops for the free coordinate of a joint.
 void add_stop_laws(std::vector<LawInfo>& all);
-/// Detents of what a joint leaves free.
+/// Detents for the free coordinate of a joint.
 void add_detent_laws(std::vector<LawInfo>& all);
 /// Words of `contact_model` and the like, in the order of ContactModel.
 inline constexpr std::array<std::string_view, 6> kContactModels{"exact", "lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "linear"};

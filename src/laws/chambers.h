@@ -1,9 +1,9 @@
-// The two chambers of a hydraulic or pneumatic cylinder: the areas of its piston, the pressures on them, and what these push with.
+// The two chambers of a hydraulic or pneumatic cylinder: the areas of its piston, the pressures on them, and the resulting forces.
 //
 //   A_c = pi/4 D^2,   A_r = pi/4 (D^2 - d^2)                        theory/cylinders Eq. (1.2)
 //   F = (p_c - p_0) A_c - (p_r - p_0) A_r                           Eq. (1.3)
 //
-// The pressures are functions of the time, of the stroke x (gap component 0) and of its rate. That of the surroundings, p_0, acts on all else.
+// The pressures are functions of time, of the stroke x (gap component 0) and of its rate. The ambient pressure p_0 acts on all other surfaces.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace pintle {
 class ChamberPressure {
  public:
   static constexpr std::array<std::string_view, 3> kVariables{"t", "stroke", "stroke_rate"};
-  /// Throws std::invalid_argument where it reads anything else.
+  /// Throws std::invalid_argument if it reads anything else.
   explicit ChamberPressure(Expression expression);
 
   template <class T>
@@ -36,11 +36,11 @@ class ChamberPressure {
 
  private:
   law_math::Slopes<3, 1> slopes(const double (&x)[3]) const;
-  /// Its variables' values, in their order.
+  /// The values of its variables, in their order.
   std::array<double, 3> values(const double (&x)[3]) const;
 
   Expression expression_;
-  std::vector<int> reads_;  // which of x each variable is
+  std::vector<int> reads_;  // which entry of x each variable is
 };
 
 class Chambers {
@@ -52,7 +52,7 @@ class Chambers {
   const ChamberPressure& cap() const { return cap_; }
   const ChamberPressure& rod() const { return rod_; }
 
-  /// Forces on the piston over that of the surroundings, each of which pushes the piston away from its chamber [N].
+  /// Forces on the piston due to the pressures above ambient, each pushing the piston away from its chamber [N].
   template <class T>
   T cap_force(const LawInput<T>& in) const { return cap_area() * over_ambient(cap_, in); }
   template <class T>
@@ -60,7 +60,7 @@ class Chambers {
   /// F, which pushes the ends of the cylinder apart.
   template <class T>
   T force(const LawInput<T>& in) const { return cap_force(in) - rod_force(in); }  // (1.3)
-  /// What presses the seals against bore and rod, per area: |p_c - p_0| + |p_r - p_0|. Eq. (3.1)
+  /// What presses the seals against bore and rod, per unit area: |p_c - p_0| + |p_r - p_0|. Eq. (3.1)
   template <class T>
   T on_seals(const LawInput<T>& in) const { return law_math::abs(over_ambient(cap_, in)) + law_math::abs(over_ambient(rod_, in)); }
 

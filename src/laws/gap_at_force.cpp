@@ -19,10 +19,10 @@ bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typen
 
 namespace {
 
-constexpr int kSpringSteps = 20, kGapNewton = 40, kHalvings = 12, kDoublings = 80;  // passes over the components' own springs; Newton iterations for a gap, at most; halvings of one step, at most; doublings of the way out of a play, at most
-constexpr double kCarried = 1e-6;                                                // of a force: what may be missing where no step leads nearer to it
+constexpr int kSpringSteps = 20, kGapNewton = 40, kHalvings = 12, kDoublings = 80;  // most passes over the components' own springs; most Newton iterations for a gap; most halvings of one step; most doublings of the distance when leaving a play
+constexpr double kCarried = 1e-6;                                                // as a fraction of a force: residual accepted if no step reduces it
 
-// Component by component.
+// Solves component by component.
 template <class S>
 void gap_of_springs(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   for (int i = 0; i < kSpringSteps; ++i) {
@@ -38,7 +38,7 @@ void gap_of_springs(const BasicLaw<S>& law, const typename S::Vec& force, const 
   }
 }
 
-// Newton's step with the whole tangent, over the components that may move and answer to their gaps; `missing` has 0 in the others.
+// Newton's step with the whole tangent, over the components that may move and respond to their gaps; sets `missing` to 0 in the others.
 template <class S>
 typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& engaged, typename S::Vec& missing, const typename S::Vec& moved = S::Vec::Ones()) {
   typename S::Mat K = now.stiffness;
@@ -52,7 +52,7 @@ typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& 
   return K.partialPivLu().solve(missing);
 }
 
-// What is missing of the force at this gap, in the components in which `missing` is not 0.
+// The residual force at this gap, over the components in which `missing` is not 0.
 template <class S>
 double miss_at(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& missing, const typename S::Vec& gap) {
   const typename S::Vec miss = respond(law, gap, rate).force - force;
@@ -62,11 +62,11 @@ double miss_at(const BasicLaw<S>& law, const typename S::Vec& force, const typen
   return std::sqrt(sum);
 }
 
-// Whether a force that rises with a power of the gap is so near to its beginning that Newton's step leads far beyond.
+// Whether a force that rises with a power of the gap is so close to its origin that Newton's step goes far beyond the solution.
 template <class S>
 bool overshoots(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const BasicResponse<S>& now, const typename S::Vec& engaged, const typename S::Vec& gap) {
-  // Of the stiffness where the law acts: below it the law is at its beginning. Times as much missing as before: less is for the halvings of steps. Without the
-  // first, blades that are bent far (test SlowFlexures), whose steps miss up to 985 times as much, start elsewhere.
+  // kBeginning: the law is near its origin if its stiffness is below this fraction of the engaged stiffness. kFar: a step is too long if it multiplies the residual by more than this:
+  // smaller growth is left to the halving of steps. Without kBeginning, strongly bent blades (test SlowFlexures), whose steps multiply the residual by up to 985, start elsewhere.
   constexpr double kBeginning = 0.01, kFar = 100;
   bool begins = false;
   for (int k = 0; k < S::kDof; ++k) begins = begins || (engaged[k] > 0 && now.stiffness(k, k) < kBeginning * engaged[k]);
@@ -76,8 +76,8 @@ bool overshoots(const BasicLaw<S>& law, const typename S::Vec& force, const type
   return !(miss_at<S>(law, force, rate, missing, gap + step) <= kFar * missing.norm());
 }
 
-// Where the law does not resist at all (in its play, or at the beginning of a force that rises with a power of the gap), or hardly, farther out
-// against the force, until there is as much of it.
+// Where the law does not resist at all (within its play, or at the origin of a force that rises with a power of the gap), or hardly does, moves
+// the gap outwards against the force until the law gives as much of it.
 template <class S>
 void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   if (law.starts_free()) return;
@@ -88,7 +88,7 @@ void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force
   if (weak) go_out_against(law, force, rate, gap);
 }
 
-// A gap as the law's stiffness lets lengths and angles be compared.
+// The size of a gap; the ratio of the law's stiffnesses makes lengths and angles comparable.
 template <class S>
 double size_of_gap(const typename S::Vec& gap, const typename S::Vec& engaged) {
   const double stiffest = engaged.template head<S::kDim>().maxCoeff(), turning = engaged.template tail<S::kDof - S::kDim>().maxCoeff();
@@ -96,10 +96,10 @@ double size_of_gap(const typename S::Vec& gap, const typename S::Vec& engaged) {
   return gap.template head<S::kDim>().norm() + arm * gap.template tail<S::kDof - S::kDim>().norm();
 }
 
-// Newton's method at one load: plain steps, each at most half of the one before. The gap must stay on the side of the law's borders where `from` is.
+// Newton's method at one load: plain steps, each at most half of the previous one. The gap must stay on the same side of the law's borders as `from`.
 template <class S>
 bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  constexpr double kLeastStep = 1e-9;  // of the gap: a step that is shorter is rounding
+  constexpr double kLeastStep = 1e-9;  // as a fraction of the gap: a shorter step is rounding
   const typename S::Vec engaged = law.engaged_stiffness();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kGapNewton; ++i) {
@@ -117,7 +117,7 @@ bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typena
   return false;
 }
 
-// A path of gaps through its last points, by the parabola (or line) through them.
+// A path of gaps, extrapolated from its last points by the parabola (or line) through them.
 template <class S>
 class GapPath {
  public:
@@ -149,11 +149,11 @@ class GapPath {
   std::size_t n_ = 0;
 };
 
-// A law without states that resists where it is, such as a blade: the load is raised from what it carries there, in steps short enough for Newton's
-// method, which no border of the law may lie between. False, and the gap as it was, where that does not lead to it. theory/assembly Eq. (3.6).
+// For a law without states that resists where it is, such as a blade: the load is raised from the force at the initial gap, in steps short enough for
+// Newton's method, between which no border of the law may lie. If that fails, returns false and leaves the gap unchanged. theory/assembly Eq. (3.6).
 template <class S>
 bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  // The shortest step, as a part of the load and of what has been reached. Thin blades that are bent far are not found with steps above 1e-5, or above 1e-2.
+  // The shortest step, as a fraction of the load and of the part already reached. Strongly bent thin blades are not found with steps above 1e-5, or above 1e-2.
   constexpr double kFirst = 1e-6, kLater = 1e-3;
   if (law.n_states() > 0 || law.starts_free()) return false;
   const BasicResponse<S> start = respond(law, gap, rate);
@@ -199,7 +199,7 @@ bool go_out_against(const BasicLaw<S>& law, const typename S::Vec& force, const 
   return false;
 }
 
-// Newton on the law's own tangent; nothing in free components.
+// Newton's method with the law's own tangent; free components do not change.
 template <class S>
 bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   if (law.ideal_limit()) {
@@ -224,7 +224,7 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
     if (!moved) return true;
     int halvings = 0;
     for (; halvings < kHalvings && !(miss_at<S>(law, force, rate, missing, gap + step) <= missing.norm()); ++halvings) step *= 0.5;
-    if (halvings == kHalvings) return law.starts_free() || missing.norm() <= kCarried * force.norm();  // no step leads nearer
+    if (halvings == kHalvings) return law.starts_free() || missing.norm() <= kCarried * force.norm();  // no step reduces the residual
     gap += step;
   }
   return true;

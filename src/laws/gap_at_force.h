@@ -5,17 +5,17 @@
 
 namespace pintle {
 
-/// The gap at which a law gives `force` at `rate`, from the given one; components without stiffness stay. False where the law has been found not to carry
-/// the force: then the gap is none that does.
+/// The gap at which a law gives `force` at `rate`, starting from the given one; components without stiffness do not change. False if the law was found
+/// unable to carry the force: the gap is then not a solution.
 template <class S>
 bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap);
 
-/// Moves the gap out along the way that the force opposes, until the law pushes back with as much of it, as a pin that goes through its play to its bush.
-/// False, and the gap as it was, where it never does.
+/// Moves the gap outwards, against the force, until the law pushes back with as much of it, as a pin that crosses its play to its bush. If that never
+/// happens, returns false and leaves the gap unchanged.
 template <class S>
 bool go_out_against(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap);
 
-/// One step of Newton's method to it, with the law's tangent at the given gap, in the components that are 1 in `moved`.
+/// One step of Newton's method towards it, with the law's tangent at the given gap, in the components that are 1 in `moved`.
 template <class S>
 void newton_step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap);
 

@@ -114,7 +114,7 @@ void BasicLaw<S>::linearize(const BasicLawPoint<S>& at, BasicLawTangents<S>& out
   else linearize_by<ManyDual<S::kDof>>(at, out);
 }
 
-// Calls visit(part, in) for every part with what it sees: its states, and the forces of those before it.
+// Calls visit(part, in) for every part with its input: its states, and the forces of the parts before it.
 template <class S>
 template <class Visit>
 void BasicLaw<S>::visit_parts(const BasicLawPoint<S>& at, const Visit& visit) const {
@@ -282,7 +282,7 @@ BasicResponse<S> BasicLaw<S>::holding_of_parts(const typename S::Vec& gap, const
   rest({0, gap, still, state}, state);
   BasicLawTangents<S> tangents;
   linearize({0, gap, rate, state}, tangents);
-  // What does not change where nothing moves, as friction inside rubber, stays as it is.
+  // States that do not change at rest, such as friction within rubber, stay as they are.
   for (int z = 0; z < n_states_; ++z) {
     const auto is_zero = [](double x) { return x == 0; };
     if (std::all_of(tangents.by_state[z], tangents.by_state[z] + n_states_, is_zero) && std::all_of(tangents.by_gap[z], tangents.by_gap[z] + S::kDof, is_zero)) tangents.by_state[z][z] = -1;
@@ -360,8 +360,8 @@ std::vector<LawColumn> BasicLaw<S>::columns() const {
 
 template <class S>
 void BasicLaw<S>::observe(const BasicLawPoint<S>& at, const typename S::Vec& force, std::vector<double>& values) const {
-  // The given force is better than what the laws make of the gap, but it is that of all parts.
-  typename S::Vec beside = S::Vec::Zero();  // those that do not hold, together
+  // The given force is more accurate than the laws' value at the gap, but it is the sum over all parts.
+  typename S::Vec beside = S::Vec::Zero();  // total of those that do not hold
   const auto own_force = [](const Part& part, const LawInput<double, S::kDof>& in) -> typename S::Vec {
     return part.holds() ? S::Vec::Zero().eval() : force_of<S>(part, in);
   };

@@ -1,4 +1,4 @@
-// The force law of a joint: a spring and a damper in each component, and whatever else acts beside them, one part after the other.
+// The force law of a joint: a spring and a damper in each component, plus any number of other parts, evaluated one after the other.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace pintle {
 
-/// Where a law is asked, in plain numbers.
+/// The arguments of a law, in plain numbers.
 template <class S>
 struct BasicLawPoint {
   double t;                                       // [s]
@@ -53,18 +53,18 @@ class BasicLaw {
   }
 
   void set_linear(const Linear& linear) { linear_ = linear; }
-  /// Throws std::invalid_argument when the joint would have too many states.
+  /// Throws std::invalid_argument if the joint would have too many states.
   void add(std::unique_ptr<Part> part);
-  /// What holds the joint alone: without friction, stops, detents and pressure.
+  /// Only the parts that hold the joint: without friction, stops, detents and pressure.
   BasicLaw holding_law() const;
 
-  /// The springs and dampers, where there is nothing else: constant tangents, one component apart from the other. Otherwise null.
+  /// The springs and dampers if there is nothing else: constant tangents without coupling between components. Otherwise null.
   const Linear* as_linear() const { return parts_.empty() ? &linear_ : nullptr; }
   int n_states() const { return n_states_; }
   int n_borders() const;
   const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
 
-  /// Over any number type of PINTLE_LAW_NUMBERS. Fills `out` whole; in.before need not be set.
+  /// Over any number type of PINTLE_LAW_NUMBERS. Sets all of `out`; in.before need not be set.
   template <class T>
   void evaluate(LawInput<T, S::kDof> in, LawOutput<T, S::kDof>& out) const {
     out.clear(n_states_);
@@ -86,7 +86,7 @@ class BasicLaw {
   /// Force on the second body; power lost [W].
   Vec force(const Point& at) const;
   double loss(const Point& at) const;
-  /// The share in the force of those parts that have states.
+  /// The contribution to the force of the parts that have states.
   Vec force_of_states(const Point& at) const;
   double energy(const Point& at) const;
   void state_rates(const Point& at, double* rate) const;
@@ -94,52 +94,52 @@ class BasicLaw {
   void linearize(const Point& at, Tangents& out) const;
   /// The signed functions of all borders, n_borders() numbers.
   void borders(const BasicLawPoint<S>& at, double* value) const;
-  /// Lets the part set those of its states that change where its border has just been crossed; `state` is that of `at`. What the law stores
-  /// less then is added to `lost` [J].
+  /// Lets the part set those of its states that change at its border, which has just been crossed; `state` is that of `at`. Any decrease of
+  /// the law's stored energy is added to `lost` [J].
   void cross(const Point& at, int part, int border, double* state, double& lost) const;
 
   /// The states of a joint that has long been at this gap and moves at this rate.
   void rest(const Point& at, double* state) const;
-  /// What a part holds in this state: LawPart::stiction.
+  /// The stiction of the part that sticks in this state, if one does: LawPart::stiction.
   std::optional<Stiction> stiction(const double* state) const;
-  /// Sets the states of the part that can, among those of `at`, so that it sticks and carries `force`; false where it would slip.
+  /// Sets the states of the part that can stick, among those of `at`, so that it sticks and carries `force`; false if it would slip.
   bool set_stuck(const Point& at, double force, double* state) const;
   /// The part that could stick starts in slip: LawPart::start_slipping.
   void start_slipping(double force);
-  /// What keeps the joint together, with its states at rest: force, static stiffness, damping.
+  /// The response of the parts that hold the joint, with their states at rest: force, static stiffness, damping.
   BasicResponse<S> holding(const Vec& gap, const Vec& rate) const;
-  /// Whether anything acts beside what holds, such as friction or a stop in a free direction.
+  /// Whether any part acts that does not hold, such as friction or a stop in a free direction.
   bool rubs() const;
-  /// Whether a part rubs in what the joint leaves free with what it holds, as surfaces that touch.
+  /// Whether a part that holds also causes friction in the free directions, as touching surfaces do.
   bool rubs_where_it_holds() const;
-  /// Whether one of these does so whatever the joint carries, as stops and detents do, and friction does not.
+  /// Whether such a part acts whatever the joint carries, as stops and detents do and friction of pins does not.
   bool acts_without_reaction() const;
-  /// Whether a part is the stops of what the joint leaves free; whether one is its dry friction.
+  /// Whether a part is the stops of the free coordinate; whether a part is its dry friction.
   bool has_stops() const;
   bool has_friction() const;
-  /// Whether the force of a part depends on those before it alone; and all such forces, where the joint has this reaction. They have no
-  /// potential: their power comes in from outside.
+  /// Whether the force of a part depends only on the forces of those before it; and the sum of these forces if the joint has this
+  /// reaction. They have no potential: their power is supplied from outside.
   bool depends_on_reaction_alone() const;
   Vec force_on_reaction(const Vec& reaction) const;
-  /// Whether power comes in through a part, as through the pressure in a cylinder.
+  /// Whether a part supplies power, as the pressure in a cylinder does.
   bool feeds() const;
-  /// The power that comes in where the joint has this force [W]. It depends on no states.
+  /// The power supplied if the joint has this force [W]. It does not depend on states.
   double supply(const Point& at, const Vec& force) const;
-  /// The stop that this gap is beyond.
+  /// The stop that this gap exceeds.
   std::optional<StopBreach> breach(const Vec& gap) const;
-  /// Whether ideal joints are its limit: springs and dampers hold it, and nothing else does.
+  /// Whether its limit is an ideal joint: springs and dampers hold the joint, and nothing else does.
   bool ideal_limit() const;
-  /// Whether a start leaves the joint where the assembly has put it: LawPart::starts_free.
+  /// Whether a start leaves the joint where assembly has put it: LawPart::starts_free.
   bool starts_free() const;
-  /// Stiffness of what holds, one-sided laws as if they acted.
+  /// Stiffness of the parts that hold, with one-sided laws treated as acting.
   Vec engaged_stiffness() const;
-  /// LawPart::gap_under, where one part alone holds the joint.
+  /// LawPart::gap_under, if a single part holds the joint.
   std::optional<Vec> gap_under(const Vec& force) const;
-  /// LawPart::closed_stiffness of those parts that are open here: they have borders and no force.
+  /// LawPart::closed_stiffness of the parts that are open here: those with borders and no force.
   Vec open_contact_stiffness(const Point& at) const;
-  /// The largest lever of its parts [m]; 0: it makes no couple of its own force.
+  /// The largest lever of its parts [m]; 0: its own force causes no couple.
   double lever() const;
-  /// The deepest of its parts': LawPart::penetration.
+  /// The largest value of its parts: LawPart::penetration.
   double penetration(const Vec& gap) const;
   /// LawPart::misfit.
   Vec misfit(Vec gap) const {
@@ -147,7 +147,7 @@ class BasicLaw {
     return gap;
   }
 
-  /// Columns of all parts, and their values, appended, where the joint has this force.
+  /// The columns of all parts; their values, appended, if the joint has this force.
   std::vector<LawColumn> columns() const;
   void observe(const Point& at, const Vec& force, std::vector<double>& values) const;
 
@@ -164,14 +164,14 @@ class BasicLaw {
 };
 using Law = BasicLaw<Planar>;
 
-/// What keeps a joint together, at rest: where no states are at hand (assembly, starts, checks).
+/// The response at rest of what keeps a joint together: for use where states are not available (assembly, starts, checks).
 template <class S>
 BasicResponse<S> respond(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
   if (const auto* linear = law.as_linear()) return linear->respond(gap, rate);
   return law.holding(gap, rate);
 }
 
-/// Whether a law that responds like this resists in all components in which it would hold its joint.
+/// Whether a law with this response resists in all components in which it would hold its joint.
 template <class S>
 bool resists(const BasicLaw<S>& law, const BasicResponse<S>& now) {
   const typename S::Vec engaged = law.engaged_stiffness();

@@ -1,4 +1,4 @@
-// The functions that laws are written with, over plain numbers, dual numbers and lanes alike.
+// The functions in which laws are written, for plain numbers, dual numbers and lanes.
 #pragma once
 
 #include <cmath>
@@ -37,14 +37,14 @@ Dual<M> through(const Dual<M>& x, F f, D slope) { return Dual<M>::scaled(f(x.v),
 template <int N, class F, class D>
 Lanes<N> through(const Lanes<N>& x, F f, D) { return each(x, f); }
 
-/// Values of a function of several numbers with its derivatives by each.
+/// Values of a function of several numbers, with its derivatives by each.
 template <int In, int Out>
 struct Slopes {
   double value[Out] = {};
   double slope[Out][In] = {};
 };
 
-/// y = f(x) of several numbers at once, where f(x, with_slopes) works in plain ones and gives Slopes.
+/// y = f(x) for several numbers at once, where f(x, with_slopes) works on plain numbers and returns Slopes.
 template <int In, int Out, class F>
 void through(const double (&x)[In], F f, double (&y)[Out]) {
   const Slopes<In, Out> at = f(x, false);
@@ -73,9 +73,9 @@ void through(const Lanes<N> (&x)[In], F f, Lanes<N> (&y)[Out]) {
 
 inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
-/// 0 where it has next to no digits left: the library takes ten times as long there.
+/// 0 where hardly any digits are left: the library takes ten times as long there.
 inline double exp(double x) {
-  constexpr double kNothing = -700;  // of which the exponential is 1e-304
+  constexpr double kNothing = -700;  // its exponential is 1e-304
   return x < kNothing ? 0 : std::exp(x);
 }
 inline double tanh(double x) { return std::tanh(x); }

@@ -1,4 +1,4 @@
-// One of the force laws that act in a joint side by side. A new law is a plain struct that satisfies what LawPartOf asks of it.
+// One of the force laws that act in parallel in a joint. A new law is a plain struct that meets the requirements of LawPartOf.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@
 
 namespace pintle {
 
-/// A number that a law reports beside its force, as a column of results.
+/// A quantity that a law reports in addition to its force, as a column of results.
 struct LawColumn {
   std::string name;     // "friction"
   std::string unit;     // "N*m"
@@ -27,7 +27,7 @@ struct LawColumn {
 struct StopBreach {
   bool upper = false;  // which stop
   int component = 0;   // of the relative pose
-  double stop = 0;     // where it stands [m] or [rad]
+  double stop = 0;     // its position [m] or [rad]
   double depth = 0;    // how far the coordinate is beyond it
 };
 
@@ -56,66 +56,66 @@ class BasicLawPart {
   virtual int n_states() const = 0;
   /// The steady states at this gap and rate: state_rate = 0.
   virtual void rest(const Input<double>& in, double* state) const = 0;
-  /// Signed functions that change their sign where the law changes its formula; integrators end a step there.
+  /// Signed functions that change sign where the law changes its formula; integrators end a step there.
   virtual int n_borders() const = 0;
   virtual void borders(const Input<double>& in, double* value) const = 0;
-  /// In which direction border i matters: +1 where its function turns positive, -1 where it turns negative, 0 both.
+  /// The direction in which border i matters: +1 if its function turns positive, -1 if it turns negative, 0 for both.
   virtual int border_direction(int i) const = 0;
-  /// What crossing border i in that direction is called: "touch".
-  /// "": no event that a user would know.
+  /// Name of the event of crossing border i in that direction: "touch".
+  /// "": not an event of interest to users.
   virtual std::string border_name(int i, bool rising) const = 0;
-  /// Whether a law without states has borders that are events, too.
+  /// Whether the borders of a law without states are events too.
   virtual bool reports_crossings() const = 0;
-  /// Border i has just been crossed in that direction: sets those of its states that stay as they are in between, a mode or what held when two
-  /// bodies touched. `in` is the instant after it.
+  /// Called just after border i has been crossed in that direction: sets those of its states that are constant in between, such as a mode or a
+  /// value kept from the instant when two bodies touched. `in` is the instant after the crossing.
   virtual void cross(int i, const Input<double>& in, double* state) const = 0;
-  /// Whether it keeps the joint together. What does not (friction) is left out where gaps that carry loads are looked for.
+  /// Whether it keeps the joint together. Parts that do not (friction) are left out in the search for gaps that carry loads.
   virtual bool holds() const = 0;
-  /// Whether it is the stops of what the joint leaves free.
+  /// Whether it is the stops of the free coordinate.
   virtual bool stops() const = 0;
-  /// Whether it is dry friction of what the joint leaves free.
+  /// Whether it is dry friction in the free directions.
   virtual bool rubs() const = 0;
-  /// Whether what it holds rubs in what it leaves free, as surfaces that touch.
+  /// Whether a part that holds also causes friction in the free directions, as touching surfaces do.
   virtual bool rubs_where_it_holds() const = 0;
-  /// What it holds in this state, as dry friction that sticks does; none: nothing.
+  /// What it holds in this state, as dry friction that sticks does; none if it holds nothing.
   virtual std::optional<Stiction> stiction(const double* state) const = 0;
-  /// Sets its states so that it sticks and carries `force`; false where it would slip.
+  /// Sets its states so that it sticks and carries `force`; false if it would slip.
   virtual bool set_stuck(const Input<double>& in, double force, double* state) const = 0;
-  /// From now on its rest() at no speed is a slip that begins under `force`, which it could not carry, in place of a stuck joint.
+  /// From now on, rest() at zero speed returns a slip that begins under `force`, which is too large to be held, instead of sticking.
   virtual void start_slipping(double force) = 0;
-  /// Whether its force is a function of that of the parts before it and of nothing else: where the joint is ideal, it has this force too.
+  /// Whether its force is a function of the force of the parts before it and of nothing else: if the joint is ideal, it has this force too.
   virtual bool depends_on_reaction_alone() const = 0;
-  /// Whether power comes in through it from outside, as through the pressure in a cylinder; and that power, a function of time, gap and rate [W].
+  /// Whether it supplies power from outside, as the pressure in a cylinder does; and that power, a function of time, gap and rate [W].
   virtual bool feeds() const = 0;
   virtual double supply(const Input<double>& in) const = 0;
-  /// Whether a start leaves its joint where the assembly has put it, loaded or not: a rope may be slack there, a pin with clearance apart from its bush.
+  /// Whether a start leaves its joint where assembly has put it, loaded or not: a rope may be slack there, a pin with clearance apart from its bush.
   virtual bool starts_free() const = 0;
-  /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
+  /// Stiffness in each component where the law acts; a slack rope is treated as if it were taut.
   virtual Vec engaged_stiffness() const = 0;
-  /// Stiffness in each component once a gap that may be open has closed; unless the law says otherwise, engaged_stiffness.
+  /// Stiffness in each component once a gap that may be open has closed; engaged_stiffness unless the law specifies otherwise.
   virtual Vec closed_stiffness() const = 0;
-  /// The gap at which it carries `force` at rest, of laws that know it; none: it has to be searched for. What it does not hold is 0.
+  /// The gap at which it carries `force` at rest, for laws that can give it; none: it has to be searched for. Components that it does not hold are 0.
   virtual std::optional<Vec> gap_under(const Vec& force) const = 0;
-  /// Where the force bends over the component that is returned with it, and how narrow it is there: steps do not fly past it. None: it is smooth.
+  /// The bends of the force as a function of the component that is returned with them: steps must not skip them. None: the force is smooth.
   virtual std::pair<int, Bends> bends() const = 0;
-  /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
+  /// Factor by which the joint's own force is multiplied to scale couples that the law derives from it [m]: the radius of a pin with friction.
   virtual double lever() const = 0;
-  /// What is to be closed of a gap where bodies are put together: of a slack rope nothing, of a bushing how far it is from its rest position.
+  /// The part of a gap that assembly must close: nothing for a slack rope, the distance from its rest position for a bushing.
   virtual Vec misfit(const Vec& gap) const = 0;
-  /// Depth by which the bodies overlap at this gap [m], negative while apart; of laws without contact minus infinity.
+  /// Depth by which the bodies overlap at this gap [m], negative while apart; minus infinity for laws without contact.
   virtual double penetration(const Vec& gap) const = 0;
-  /// The stop that this gap is beyond; none: it is between them.
+  /// The stop that this gap exceeds; none: it is between the stops.
   virtual std::optional<StopBreach> breach(const Vec& gap) const = 0;
   virtual std::span<const LawColumn> columns() const = 0;
-  /// One value per column, where the whole joint has this force on its second body, less what other parts add that do not hold it.
+  /// One value per column, if the whole joint has this force on its second body; the contributions of other parts that do not hold are already subtracted.
   virtual void observe(const Input<double>& in, const Vec& force, double* value) const = 0;
 };
 using LawPart = BasicLawPart<Planar>;
 
-/// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
-/// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
-/// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, kReportsCrossings = true, supply(in),
-/// columns() with observe(), engaged_stiffness(), closed_stiffness(), gap_under(), bends(), misfit(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
+/// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills out, which is all zero on entry; where they apply also n_states() with rest(),
+/// n_borders() with borders(), border_directions() (one +1, -1 or 0 each, or border_direction(i)), cross() and border_name(), kHolds = false, kStops = true, kRubs = false (for parts that neither hold nor stop),
+/// kOnReactionAlone = true, kStartsFree = true, kReportsCrossings = true, supply(in), columns() with observe(), engaged_stiffness(), closed_stiffness(), gap_under(), bends(), misfit(), lever(), penetration(), breach(),
+/// stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:

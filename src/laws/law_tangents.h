@@ -1,10 +1,10 @@
-// The tangents of a law with states of its own, and what is left of them once the states are eliminated.
+// The tangents of a law with states of its own, and their reduction when the states are eliminated.
 //
 //   f = F(e, e', z),   z' = g(e, e', z)        theory/joints Eq. (3.7)
 //
-// Where a step's operator is 1/mu (theory/time Eq. (3.9)), states answer gaps at once,
+// Where a step's operator is 1/mu (theory/time Eq. (3.9)), states follow gaps directly,
 //   (mu - g_z) dz = (g_e + mu g_v) de,         Eq. (3.8)
-// so that a law of any kind enters the matrices by its impedance only:
+// so that a law of any kind enters the matrices only through its impedance:
 //   Z(mu) = -[F_e + mu F_v + F_z (mu - g_z)^-1 (g_e + mu g_v)].   Eq. (3.9)
 #pragma once
 
@@ -31,17 +31,17 @@ struct BasicLawTangents {
 };
 using LawTangents = BasicLawTangents<Planar>;
 
-/// The impedance of a law at one mu, or at several side by side: T is double or Spectrum<N>.
+/// The impedance of a law at one mu, or at several in parallel: T is double or Spectrum<N>.
 template <class T, class S = Planar>
 struct LawImpedance {
   static constexpr int D = S::kDof;
   T weight[D * D];                // Z(mu), by rows
   std::vector<T> inverse;     // (mu - g_z)^-1, n x n
   std::vector<T> follows;     // (mu - g_z)^-1 (g_e + mu g_v), n x D: states by gaps
-  std::vector<T> pushes;      // F_z (mu - g_z)^-1, D x n: forces by what is missing in the states' rates
+  std::vector<T> pushes;      // F_z (mu - g_z)^-1, D x n: forces by residuals of the states' rates
   int n = 0;
 
-  /// Room for n states; then `find` allocates nothing.
+  /// Allocates room for n states; `find` then allocates nothing.
   void reserve(int states) {
     n = states;
     inverse.resize(n * n);
@@ -82,8 +82,8 @@ struct LawImpedance {
     else return reciprocal(x);
   }
 
-  // Gauss and Jordan. Rates that die out have g_z on the left of the imaginary axis and mu stands on its right, so that pivots do
-  // not vanish; what a law that feeds its own states makes of them shows in the step's factorisation, which looks at its numbers.
+  // Gauss-Jordan elimination. For decaying rates g_z lies to the left of the imaginary axis and mu to its right, so pivots do not
+  // vanish. If a law feeds its own states and they do, the step's factorisation detects it, because it checks its numbers.
   void invert() {
     for (int p = 0; p < n; ++p) {
       const T pivot = inverse_of(work_[p * n + p]);

@@ -1,5 +1,4 @@
-// What every law must satisfy, at random gaps, rates and states. The battery runs over the laws of the list, at their typical()
-// parameters.
+// Properties that every law must have, at random gaps, rates and states. The battery runs over the laws of the list, with their typical() parameters.
 #include "laws/law.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +46,7 @@ using sample::Random;
 
 constexpr int kSamplePoints = 300;
 
-// A law that only tests know: two states, a border, full matrices.
+// A law for tests only: two states, a border, full matrices.
 struct ClutchLaw {
   static constexpr std::string_view kWord = "clutch_of_a_test";
   double k = 1e5, c = 50, grip = 3e4, rate = 20;
@@ -98,7 +97,7 @@ struct GrippingGuide : GuideContactLaw {
     return law;
   }
 };
-// Other formulas of the bearings.
+// Other formulas for the bearings.
 struct LongFilmLaw : JournalFilmLaw {
   static LongFilmLaw typical() { return {{0.03, 0.2, 4e-5, 0.05, 2e-6, 5e8, Flow::kAround}}; }
 };
@@ -118,7 +117,7 @@ ChamberPressure pressure(std::string_view text) {
   return ChamberPressure(std::get<ParsedExpression>(parse_expression(text, scope)).expression);
 }
 
-// Pressures that are functions of everything that they may read.
+// Pressures that are functions of all variables they may read.
 struct GasPressureLaw : PressureLaw {
   static GasPressureLaw typical() {
     return {{std::make_shared<const Chambers>(0.05, 0.03, 1e5, pressure("2e6*(1 + 0.3*sin(20*t))/(1 + 4*stroke^2)"), pressure("3e5 + 1e4*stroke_rate*abs(stroke_rate)"))}};
@@ -141,7 +140,7 @@ Point random_point(Random& random) {
   return p;
 }
 
-// The law beside a spring that presses, so that friction has something to rub on.
+// The law together with a spring that presses, so that friction has a normal force.
 template <class P>
 Law pressed(const P& part) {
   Law law(LinearLaw{{1e6, 2e6, 3e3}, {10, 20, 0.5}});
@@ -167,7 +166,7 @@ using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, Coulom
                              TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, FiniteFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw, PressureLaw, GasPressureLaw, DetentLaw, SeparatingForce, GrippingPin, GrippingGuide>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
-// Across a border that the law declares there is no difference quotient; anywhere else there must be.
+// Across a border that the law declares the difference quotient is not defined; everywhere else it must match.
 TYPED_TEST(AnyLaw, TangentsAreDifferences) {
   int borders = 0;
   for (int i = 0; i < kSamplePoints; ++i) {
@@ -209,7 +208,7 @@ TYPED_TEST(AnyLaw, TangentsAreDifferences) {
 }
 
 TYPED_TEST(AnyLaw, HoldsByAForceThatIsDownhillInItsEnergy) {
-  if (this->law_.parts().front()->word() == ClutchLaw::kWord) return;  // it keeps no account of energy
+  if (this->law_.parts().front()->word() == ClutchLaw::kWord) return;  // it has no energy account
   for (int i = 0; i < kSamplePoints; ++i) {
     const Point p = random_point(this->random_);
     const Vec still = Vec::Zero();
@@ -222,7 +221,7 @@ TYPED_TEST(AnyLaw, HoldsByAForceThatIsDownhillInItsEnergy) {
   }
 }
 
-// Power put in by the force = what the energy loses, less what turns into heat, and what is supplied; the energy changes with gap and states.
+// Power of the force = decrease of the energy, minus what turns into heat, plus what is supplied; the energy changes with gap and states.
 TYPED_TEST(AnyLaw, PowerIsAccountedFor) {
   if (this->law_.parts().front()->word() == ClutchLaw::kWord) return;
   for (int i = 0; i < kSamplePoints; ++i) {
@@ -312,7 +311,7 @@ TYPED_TEST(AnyLaw, RestsWhereItsStatesDoNotChange) {
   }
 }
 
-// Eq. (3.9) against the law itself: states at mu dz = g - g_0 for a small change of the gap, rates mu times as large.
+// Eq. (3.9) against the law itself: states at mu dz = g - g_0 for a small change of the gap, with rates mu times as large.
 TYPED_TEST(AnyLaw, ImpedanceIsWhatALinearisedStepFinds) {
   for (int i = 0; i < 50; ++i) {
     const Point p = random_point(this->random_);
@@ -383,7 +382,7 @@ TEST(TensionLaw, HasItsBorderWhereStated) {
     EXPECT_LT(slack[0], 0);
     EXPECT_GT(taut[0], 0);
     EXPECT_LT(taut[1], 0);
-    EXPECT_EQ(slack[1] > 0, rate < 0);  // stretched without a pull, it loses power
+    EXPECT_EQ(slack[1] > 0, rate < 0);  // stretched but not pulling, it loses power
     EXPECT_EQ(rope.loss({0, below, v, nullptr}) > 0, slack[1] > 0);
     EXPECT_EQ(respond(rope, below, v).stiffness(0, 0), 0);
     EXPECT_EQ(respond(rope, above, v).stiffness(0, 0), law.k);
@@ -419,7 +418,6 @@ TEST(Stops, ByHand) {
   EXPECT_FALSE(law.breach({5, 5, 1.9}));
 }
 
-// A piston of 100 mm on a rod of 60 mm: areas of 25 pi and 16 pi cm^2.
 // Straight and tilted: the deeper of the two ends counts.
 TEST(GuideContact, OverlapsByHand) {
   const GuideContactLaw law = GuideContactLaw::typical();
@@ -428,6 +426,7 @@ TEST(GuideContact, OverlapsByHand) {
   EXPECT_NEAR(law.penetration({0, 1e-4, 0.1}), 1e-4 + 0.5 * law.length * std::sin(0.1) - law.clearance, 1e-15);
 }
 
+// A piston of 100 mm on a rod of 60 mm: areas of 25 pi and 16 pi cm^2.
 TEST(PressureLaw, ByHand) {
   const PressureLaw law{std::make_shared<const Chambers>(0.1, 0.06, 1e5, ChamberPressure(Expression::constant(2.1e6)), ChamberPressure(Expression::constant(0.6e6)))};
   const double pi = std::numbers::pi, push = 25e-4 * pi * 2e6 - 16e-4 * pi * 0.5e6;
@@ -481,7 +480,7 @@ TEST(BushingLaw, RefusesWhatFeedsEnergy) {
   const LawInfo& info = *find_law("bushing");
   const std::map<std::string, std::vector<double>> values{{"stiffness", {100}}, {"angular_stiffness", {1}}, {"stiffness_xa", {11}}};
   EXPECT_EQ(info.fault(setting_of(info, values)).key, "stiffness_xa");
-  // Two terms are too large: the one that is more so is named.
+  // Two terms are too large: the one with the larger excess is named.
   const std::map<std::string, std::vector<double>> two{{"stiffness", {100}}, {"angular_stiffness", {1}}, {"stiffness_xy", {101}}, {"stiffness_ya", {30}}};
   EXPECT_EQ(info.fault(setting_of(info, two)).key, "stiffness_ya");
   const std::map<std::string, std::vector<double>> just{{"stiffness", {100}}, {"angular_stiffness", {1}}, {"stiffness_xa", {10}}};

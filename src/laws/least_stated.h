@@ -1,4 +1,4 @@
-// What a model states of a law, by key, and what the law takes where nothing is stated.
+// The value that a model states for a key of a law, and the law's default if nothing is stated.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 
 namespace pintle {
 
-/// The least of the numbers that are stated under `key` [SI]; none where nothing is.
+/// The smallest of the values stated under `key` [SI]; none if nothing is stated.
 inline std::optional<double> least_stated(const LawChoice& law, const std::string& key) {
   const auto found = law.values.find(key);
   if (found == law.values.end() || found->second.empty()) return std::nullopt;
   return *std::min_element(found->second.begin(), found->second.end());
 }
 
-/// The same; where nothing is stated, what the law's catalog entry takes. 0 of a key that the law does not have.
+/// The same; if nothing is stated, the default of the law's catalog entry. 0 for a key that the law does not have.
 inline double least_value(const LawChoice& law, const std::string& key) {
   if (const auto stated = least_stated(law, key)) return *stated;
   const LawInfo* known = find_law(law.word);

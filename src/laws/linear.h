@@ -1,4 +1,4 @@
-// A spring and a damper in every forbidden displacement: the paper's axioms, Eqs. (1)-(2), (7)-(8), (14)-(20).
+// A spring and a damper in every forbidden component: the paper's axioms, Eqs. (1)-(2), (7)-(8), (14)-(20).
 //
 //   f = -(k e + c e')     force on the second body     theory/joints Eq. (3.1)
 //   V = 1/2 k e^2         loss = c e'^2                Eqs. (3.2), (3.3)

@@ -1,18 +1,18 @@
-// Rubber: a spring and a damper, and beside them branches that relax: springs in series with dampers (a generalised Maxwell body; in
-// finite elements a Prony series). J. D. Ferry, Viscoelastic Properties of Polymers, Wiley 1980, chapter 3.
+// Rubber: a spring and a damper in parallel with relaxing branches, which are springs in series with dampers (a generalised Maxwell
+// body; in finite elements a Prony series). J. D. Ferry, Viscoelastic Properties of Polymers, Wiley 1980, chapter 3.
 //
 //   f = -(k e + c e') - sum_i k_i (e - z_i),     z_i' = (e - z_i) / tau_i        theory/joints Eq. (3.11)
 //   V = 1/2 k e^2 + 1/2 sum_i k_i (e - z_i)^2
 //   P = c e'^2 + sum_i k_i (e - z_i)^2 / tau_i
 //
-// z_i is how far the damper of a branch has followed. Held at a gap, the force relaxes from (k + sum k_i) e to k e; under a constant
+// z_i is the displacement of the damper of a branch. Held at a gap, the force relaxes from (k + sum k_i) e to k e; under a constant
 // force the joint creeps.
 //
-// In the held lengths e the relaxed spring may harden, and filled rubber rubs inside, whatever the speed (P. R. Dahl, The Aerospace Corp. TOR-0158, 1968;
-// M. Berg, Veh. Syst. Dyn. 30 (1998) 197):
+// In the held lengths e the relaxed spring may harden, and filled rubber has internal friction, independent of speed (P. R. Dahl, The Aerospace Corp.
+// TOR-0158, 1968; M. Berg, Veh. Syst. Dyn. 30 (1998) 197):
 //   V = 1/2 q (1 + 1/2 a r^2),  q = sum k_i e_i^2,  r^2 = sum e_i^2              Eq. (3.21)
 //   f = -(F_h/x_h) z,   z' = e' - |e'| z/x_h                                     Eq. (3.22)
-// so that |f| is at most F_h, which it comes near to within a few x_h. Stored: F_h/x_h |z|^2/2; lost: F_h |e'| |z|^2/x_h^2.
+// so that |f| is at most F_h, which it approaches within a few x_h. Stored: F_h/x_h |z|^2/2; lost: F_h |e'| |z|^2/x_h^2.
 #pragma once
 
 #include <string_view>
@@ -31,12 +31,12 @@ struct MaxwellLaw {
     double k = 0;    // > 0 [N/m] or [N*m/rad]
     double tau = 1;  // > 0 [s]
   };
-  Planar::Vec k = Planar::Vec::Zero();  // what is left when all branches have relaxed [N/m, N/m, N*m/rad]
+  Planar::Vec k = Planar::Vec::Zero();  // stiffness when all branches have relaxed [N/m, N/m, N*m/rad]
   Planar::Vec c = Planar::Vec::Zero();  // [N*s/m, N*s/m, N*m*s/rad]
   std::vector<Branch> branches;         // one state each
   double hardening = 0;                 // a [1/m^2]
-  double hysteresis_force = 0, hysteresis_displacement = 1;  // F_h, x_h; a state for each held length [N], [m]
-  std::vector<int> lengths;             // components that are held lengths, where it hardens or rubs inside
+  double hysteresis_force = 0, hysteresis_displacement = 1;  // F_h, x_h; one state for each held length [N], [m]
+  std::vector<int> lengths;             // held lengths in which it hardens or has internal friction
 
   static MaxwellLaw typical() { return {{1e6, 2e6, 300}, {200, 100, 0.5}, {{0, 5e5, 0.01}, {0, 2e5, 0.3}, {1, 1e6, 0.01}, {2, 200, 0.02}}, 1e6, 300, 2e-4, {0, 1}}; }
 

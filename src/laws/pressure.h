@@ -1,9 +1,9 @@
-// A hydraulic or pneumatic cylinder: what its pressures push with, along the line between its two points.
+// A hydraulic or pneumatic cylinder: the force of its pressures, along the line between its two points.
 //
 //   f = F(t, x, x'),   Q_c = A_c x',   Q_r = -A_r x',   P = F x'        theory/cylinders Eqs. (1.3), (2.1), (2.2)
 //
-// The gap, component 0, is the stroke x. What the pressures do is work from outside, P, and no energy that the joint stores. The formula changes
-// where those of the pressures do.
+// The gap, component 0, is the stroke x. The pressures do work P from outside; the joint stores no energy of theirs. The formula changes where
+// the formulas of the pressures do.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a law answers: the force on the second body, its tangents, the energy it stores and the power it loses.
+// The response of a law: the force on the second body, its tangents, the stored energy and the lost power.
 #pragma once
 
 #include "space/space.h"

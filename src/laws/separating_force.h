@@ -1,9 +1,9 @@
-// What teeth do beside carrying: they push each other apart, by their pressure angle alpha.
+// The separating force of teeth: apart from carrying load they push each other apart, because of their pressure angle alpha.
 //
 //   f_1 = |f_0| tan alpha                                                                  theory/joints Eq. (2.19)
 //
-// f_0 is the force of the laws before this one, along the pitch circles; component 1 is the opening of the mesh, theory/joints Eq. (2.20). Where f_0 changes its sign
-// the teeth change the flank, and f_1 has a kink: steps end there, for it acts between pins that carry it and accelerates next to nothing.
+// f_0 is the force of the laws before this one, along the pitch circles; component 1 is the opening of the mesh, theory/joints Eq. (2.20). Where f_0 changes sign the
+// teeth change flanks, and f_1 has a kink. Steps end there, because f_1 acts between pins that carry it and accelerates next to nothing.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
-// A rope: it pulls when longer than its length and does nothing when shorter.
+// A rope: it pulls when longer than its length and exerts no force when shorter.
 //
 //   f = min(0, -(k e + c e'))  for e > 0, else 0      theory/joints Eq. (3.4)
 //   V = 1/2 k max(0, e)^2                             Eq. (3.5)
 //
-// A rope never pushes: while it is stretched but closing so fast that the damper would push, the force is 0 and
-// the loss is what is left of the elastic power, -k e e' >= 0. The formula changes at e = 0, also from there, and where the force vanishes.
+// A rope never pushes: while it is stretched but shortening so fast that the damper would push, the force is 0 and the loss is the released
+// elastic power, -k e e' >= 0. The formula changes at e = 0, in this state too, and where the force vanishes.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct TensionLaw {
     out.loss = where_positive(e, where_positive(pull, c * (rate * rate), -k * (e * rate)), none);
   }
   int n_borders() const { return c > 0 ? 2 : 1; }
-  /// Positive where it pulls, and where it is stretched and does not pull: there it loses power until it is slack.
+  /// Positive where it pulls, and where it is stretched but does not pull: there it loses power until it is slack.
   void borders(const LawInput<double>& in, double* value) const {
     const double pull = in.gap[0] + c / k * in.rate[0];
     value[0] = std::min(in.gap[0], pull);

@@ -1,4 +1,4 @@
-// A gap's Jacobians in factored form: the turn into F's axes, and the arms of the point where the joint acts.
+// A gap's Jacobians in factored form: the rotation into F's axes, and the arms of the point where the joint acts.
 #pragma once
 
 #include "simd/lanes.h"
@@ -12,8 +12,8 @@ template <class T>
 struct PlanarGapMap {
   static constexpr int kMostFunctions = 3;
   T c, s, ax, ay, bx, by;         // as in PlanarPoseGeometry
-  T gradient[kMostFunctions][3];  // of the first components, where they are functions
-  int functions = 0;              // how many are; then there are no others
+  T gradient[kMostFunctions][3];  // of the first components, if they are functions
+  int functions = 0;              // number of functions; if there are any, there are no other components
 
   void set(const PlanarPoseGeometry<T>& pose) {
     c = pose.c;
@@ -46,7 +46,7 @@ struct PlanarGapMap {
   Planar::Mat GB() const { return rows(c, s, s * bx - c * by, -s, c, c * bx + s * by, 1); }
 
   template <class U>
-  struct OnBodies { U fx, fy, ma, mb; };  // force on B (on A the opposite), moments on A and B
+  struct OnBodies { U fx, fy, ma, mb; };  // force on B (opposite on A), moments on A and B
 
   /// G' f.
   template <class U>
@@ -87,7 +87,7 @@ struct PlanarGapMap {
     on_b[1] = on.fy;
     on_b[2] = on.mb;
   }
-  /// on_a, on_b += the magnitudes of that.
+  /// on_a, on_b += the magnitudes of the same forces and moments.
   template <class U, class V>
   void push_magnitudes(const U* f, V& on_a, V& on_b) const {
     const OnBodies<U> on = spread(f);
@@ -114,7 +114,7 @@ struct PlanarGapMap {
   }
 
  private:
-  // A function's share in what the pose sees.
+  // Change of a function along a change e of the pose.
   template <class U>
   U along(int f, const U* e) const { return gradient[f][0] * e[0] + gradient[f][1] * e[1] + gradient[f][2] * e[2]; }
   static double size(double x) { return std::abs(x); }

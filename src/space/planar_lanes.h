@@ -1,4 +1,4 @@
-// Where a planar body is at every stage of a step at once, one stage per lane.
+// Positions of a planar body at all stages of a step at once, one stage per lane.
 #pragma once
 
 #include "simd/lanes.h"
@@ -25,14 +25,14 @@ struct PlanarBodyLanes {
     for (int k = 0; k < 3; ++k) q[k] = step.place(a[k], q0[k], v0[k], v[k]);
     sine_and_cosine_unchecked(q[2], s, c);
   }
-  /// The first time in a step.
+  /// The first call in a step.
   template <class Step>
   PINTLE_LANES void begin(const Step& step, const S::Coordinates& q0, const S::Vec& v0) { place(step, q0, v0); }
-  /// What must be checked of all bodies together: angles.
+  /// What must be checked for all bodies together: angles.
   PINTLE_LANES const L& to_check() const { return q[2]; }
   PINTLE_LANES static bool must_check(const L& largest) { return any_beyond_largest_angle(largest); }
   PINTLE_LANES void check() { sine_and_cosine(q[2], s, c); }
-  /// Velocities have been changed.
+  /// To be called after velocities have been changed.
   PINTLE_LANES void renew_rates() {}
 };
 

@@ -10,7 +10,7 @@ PlanarRelativePose::S::Mat PlanarRelativePose::GB() const { return PlanarGapMap<
 Eigen::Matrix<double, 6, 6> PlanarRelativePose::geometric(const S::Vec& f) const {
   const S::Point F = world_force(f), JF = S::perp(F);
   Eigen::Matrix<double, 6, 6> k = Eigen::Matrix<double, 6, 6>::Zero();
-  // Rows: the force and moment on A, then on B; turning A turns the force, moving the points moves the arms.
+  // Rows: the force and moment on A, then on B. Turning A turns the force; moving the points moves the arms.
   k.block<2, 1>(0, 2) = -JF;
   k.block<2, 1>(3, 2) = JF;
   k.block<1, 2>(2, 0) = -JF.transpose();

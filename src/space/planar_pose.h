@@ -1,12 +1,12 @@
-// How frame M (on body B) stands and moves as seen from frame F (on body A): z = (x, y, angle), theory/joints Eqs. (2.1)-(2.8).
-// Every planar joint is a selection or a function of z; what a joint does not forbid is what it leaves free.
+// Position and motion of frame M (on body B) relative to frame F (on body A): z = (x, y, angle), theory/joints Eqs.
+// (2.1)-(2.8). Every planar joint is a selection or a function of z; the components that a joint does not forbid are free.
 #pragma once
 
 #include "space/planar.h"
 
 namespace pintle {
 
-/// What z, z' and z'' are made of, in world axes unless it says otherwise; T is a number, or one number per stage of a step.
+/// The quantities from which z, z' and z'' are formed, in world axes unless stated otherwise; T is a number, or one number per stage of a step.
 template <class T>
 struct PlanarPoseGeometry {
   T c, s;            // F's axes in the world
@@ -15,10 +15,10 @@ struct PlanarPoseGeometry {
   T ax, ay, bx, by;  // arms: from A's, from B's centre of mass to M [m]
   T bias_x, bias_y;  // convective acceleration, in F's axes [m/s^2]
 
-  /// A and B: anything with x, y, its sine s and cosine c, and rates vx, vy, w. F and M: frames as in Planar, of numbers or lanes.
+  /// A and B: any type with x, y, its sine s and cosine c, and rates vx, vy, w. F and M: frames as in Planar, of numbers or lanes.
   template <class Body, class Frame>
   static PlanarPoseGeometry between(const Body& A, const Frame& F, const Body& B, const Frame& M);
-  /// z, of bodies and frames that have their angles. Eqs. (2.1), (2.4).
+  /// z, for bodies and frames that have their angles. Eqs. (2.1), (2.4).
   template <class Body, class Frame, class Gap>
   void gaps(const Body& A, const Frame& F, const Body& B, const Frame& M, Gap& z) const {
     z[0] = c * dx + s * dy;
@@ -56,15 +56,15 @@ struct PlanarRelativePose {
 
   static PlanarRelativePose between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M);
 
-  /// The force of z-components f (conjugate to z, on B) in world axes [N].
+  /// The force in world axes [N] of z-components f (conjugate to z, on B).
   S::Point world_force(const S::Vec& f) const { return {c * f[0] - s * f[1], s * f[0] + c * f[1]}; }
   /// Its couple on B about M's origin [N*m].
   double world_couple(const S::Vec& f) const { return f[2]; }
   /// d(GA' f)/dq and d(GB' f)/dq at constant f: the geometric stiffness, 6 x 6 over (qA, qB), symmetric. Eq. (2.9).
   Eigen::Matrix<double, 6, 6> geometric(const S::Vec& f) const;
-  /// d(rate)/dq over (qA, qB), 3 x 6. Eq. (2.10). Needs the motions it was made from.
+  /// d(rate)/dq over (qA, qB), 3 x 6. Eq. (2.10). Takes the motions from which the pose was made.
   Eigen::Matrix<double, 3, 6> rate_gradient(const S::Motion& A, const S::Motion& B) const;
-  /// d(bias)/dq over (qA, qB) at constant velocities, 3 x 6. Eq. (2.22). Needs the motions it was made from.
+  /// d(bias)/dq over (qA, qB) at constant velocities, 3 x 6. Eq. (2.22). Takes the motions from which the pose was made.
   Eigen::Matrix<double, 3, 6> bias_gradient(const S::Motion& A, const S::Motion& B) const;
 };
 

@@ -1,5 +1,5 @@
-// Rotations of space by their exponential map: matrices and vectors over any number type T (plain numbers, lanes, dual numbers), the
-// rotation vector of an orientation, and how it changes. E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, Springer 2006,
+// Rotations in space by their exponential map: matrices and vectors over any number type T (plain numbers, lanes, dual numbers), the
+// rotation vector of an orientation, and its rate. E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, Springer 2006,
 // section IV.8; theory/space section 1.
 #pragma once
 
@@ -52,7 +52,7 @@ PINTLE_LANES auto operator*(const Matrix3<T>& A, const Matrix3<U>& B) {
   return Matrix3{x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
 }
 
-/// Between the matrices of Eigen and these.
+/// Conversions between Eigen's matrices and these.
 inline Vector3<double> components(const Eigen::Vector3d& a) { return {a.x(), a.y(), a.z()}; }
 inline Eigen::Vector3d vector_of(const Vector3<double>& a) { return {a.x, a.y, a.z}; }
 inline Matrix3<double> components(const Eigen::Matrix3d& R) { return {R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)}; }
@@ -69,7 +69,7 @@ struct RotationFunctions {
 
 namespace rotation {
 
-/// Angles up to one radian go by Taylor's series, larger ones by the closed forms.
+/// The Taylor series is used up to one radian, the closed forms for larger angles.
 inline constexpr double kSmallSquare = 1;
 
 /// c[0] + c[1] x + ... by Horner's rule.
@@ -117,7 +117,7 @@ PINTLE_LANES Matrix3<T> matrix(const Vector3<T>& turn, const RotationFunctions<T
   return {one - f.twice * (yy + zz), xy - z, xz + y, xy + z, one - f.twice * (xx + zz), yz - x, xz - y, yz + x, one - f.twice * (xx + yy)};
 }
 
-/// The rate of a rotation vector that began where the body's axes were, at the angular velocity w in body axes. Eq. (1.4).
+/// The rate of a rotation vector that starts at the body's initial axes, for the angular velocity w in body axes. Eq. (1.4).
 template <class T>
 PINTLE_LANES Vector3<T> rate(const Vector3<T>& turn, const Vector3<T>& w, const T& inverse) {
   const Vector3<T> once = cross(turn, w);

@@ -21,7 +21,7 @@ Eigen::Matrix3d matrix_of(const SpacePoint& turn) {
   return m;
 }
 
-// A rotation vector of this angle in any direction.
+// A rotation vector of this angle in a random direction.
 SpacePoint turn_by(double angle, Random& random) {
   SpacePoint axis;
   do axis = random.vector<SpacePoint>(-1, 1);
@@ -29,7 +29,7 @@ SpacePoint turn_by(double angle, Random& random) {
   return angle * axis.normalized();
 }
 
-// The closed forms in more digits than numbers have.
+// The closed forms with more digits than double precision.
 RotationFunctions<long double> closed_forms(long double x) {
   const long double half = x / 2, s = std::sin(half), c = std::cos(half);
   return {2 * s * c / x, 2 * s * s / (x * x), (1 - half * c / s) / (x * x)};
@@ -78,15 +78,15 @@ TEST(Rotation, QuaternionsAndVectorsAreInversesUpToHalfATurn) {
     const Eigen::Quaterniond r = rotation::quaternion(turn);
     EXPECT_NEAR(r.norm(), 1, 3e-16);
     EXPECT_LT((rotation::vector_of(r) - turn).norm(), 2e-15 * angle) << angle;
-    // The quaternion's sign is no rotation.
+    // The sign of the quaternion does not change the rotation.
     EXPECT_LT((rotation::vector_of(Eigen::Quaterniond(-r.coeffs())) - turn).norm(), 2e-15 * angle) << angle;
   }
-  // Beyond half a turn the shorter way round.
+  // Beyond half a turn: the shorter way round.
   const SpacePoint far = turn_by(4, random);
   EXPECT_LT((rotation::vector_of(rotation::quaternion(far)) - far * (1 - 2 * std::numbers::pi / 4)).norm(), 4e-15);
 }
 
-// theory/space Eq. (1.4): a frame that turns at w in its own axes, seen from where the vector began.
+// theory/space Eq. (1.4): a frame that turns at w in its own axes, seen from the axes in which the vector starts.
 TEST(Rotation, RateIsTheSlopeOfTheRotationVector) {
   Random random(3);
   for (const double angle : {0.0, 1e-3, 0.6, 0.999, 1.001, 2.0, 3.0}) {

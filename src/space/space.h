@@ -1,4 +1,4 @@
-// What the plane and space have in common: everything from the joints' kinematics on is written over a space S that satisfies this.
+// What the plane and space have in common: everything from the joints' kinematics upwards is written for a space S that satisfies this concept.
 #pragma once
 
 #include <concepts>
@@ -13,8 +13,8 @@
 
 namespace pintle {
 
-/// Coordinates and increments of a body, velocities and wrenches, frames, and the relative pose of two frames with its Jacobians, its
-/// convective terms and its geometric stiffness. Nothing outside this room knows how many coordinates there are.
+/// Coordinates and increments of a body, velocities and wrenches, frames, and the relative pose of two frames with its Jacobians,
+/// convective terms and geometric stiffness. Nothing outside this directory knows the number of coordinates.
 template <class S>
 concept Space = requires(typename S::Coordinates q, const typename S::Vec dq, typename S::Motion m, typename S::Frame F, typename S::RelativePose pose, typename S::Vec z) {
   { S::kDof } -> std::convertible_to<int>;
@@ -36,7 +36,7 @@ concept Space = requires(typename S::Coordinates q, const typename S::Vec dq, ty
 
 static_assert(Space<Planar> && Space<Spatial>);
 
-// Names of the plane's own, for what knows no other space.
+// Short names of the plane's types, for code that knows no other space.
 template <class T>
 using PoseGeometry = PlanarPoseGeometry<T>;
 template <class T>

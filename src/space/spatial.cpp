@@ -45,7 +45,7 @@ Spatial::Vec Spatial::Motion::wrench(const Point& force, const Point& couple, co
   return f;
 }
 
-// By the shortest turn of z onto the axis; of the half turns onto -z, that about x.
+// By the shortest rotation of z onto the axis; for -z, of all half turns the one about x.
 Spatial::Frame Spatial::Frame::along(const Point& p, const Point& axis) {
   const double across = std::hypot(axis.x(), axis.y());
   if (across == 0) return {p, axis.z() < 0 ? Eigen::Matrix3d(Point(1, -1, -1).asDiagonal()) : Eigen::Matrix3d::Identity()};

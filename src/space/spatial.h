@@ -1,6 +1,6 @@
-// Space: six degrees of freedom a body, the position of its centre of mass in world axes and an orientation, which is advanced on the
-// group of rotations. Angular velocities and moments are in body axes, along which the inertia is diagonal. theory/space.
-// What multiplies matrices is in the source: nearly every other source reads this header.
+// Space: six degrees of freedom per body, the position of its centre of mass in world axes and an orientation, which is advanced on
+// the group of rotations. Angular velocities and moments are in body axes, along which the inertia is diagonal. theory/space. Matrix
+// products are in the .cpp: nearly every other source includes this header.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 #include "space/rotation.h"
 
-/// What is instantiated for bodies in space, and left out of a program that has mechanisms of the plane only.
+/// Code that is instantiated for bodies in space, and left out of a program with planar mechanisms only.
 #ifdef PINTLE_PLANAR_ONLY
 #define PINTLE_IN_SPACE(...)
 #else
@@ -28,7 +28,7 @@ struct SpatialRelativePose;
 template <int N>
 struct SpatialBodyLanes;
 
-/// A frame on a body as PoseGeometry asks for it.
+/// A frame on a body in the form PoseGeometry needs.
 template <class T>
 struct SpatialFrame {
   Vector3<T> p;
@@ -37,10 +37,10 @@ struct SpatialFrame {
 
 struct Spatial {
   static constexpr int kDof = 6;               // degrees of freedom of a free body, and components of a relative pose
-  static constexpr int kDim = 3;               // the first of them are translations, the others rotations
+  static constexpr int kDim = 3;               // number of translations, which come first; the others are rotations
   static constexpr int kTurn = 5;              // component of a relative pose about the joint's axis
   static constexpr bool kCurved = true;        // rotations do not add: an increment is not a difference of coordinates
-  static constexpr bool kGyroscopic = true;    // a spinning body has moments of its velocity alone
+  static constexpr bool kGyroscopic = true;    // the velocity of a spinning body alone causes moments
   using Vec = Eigen::Matrix<double, kDof, 1>;  // (velocity in world axes, angular velocity in body axes) [m/s, rad/s], or (force, moment)
   using Mat = Eigen::Matrix<double, kDof, kDof>;
   using Point = Eigen::Vector3d;               // [m]
@@ -67,13 +67,13 @@ struct Spatial {
     move(to, dq);
     return to;
   }
-  /// What moves q0 to q1, by at most half a turn.
+  /// The increment that moves q0 to q1, by at most half a turn.
   static Vec difference(const Coordinates& q1, const Coordinates& q0);
-  /// The rate of a displacement dq that began where the velocity v is measured from. Eq. (1.4).
+  /// The rate of an increment dq from the configuration in which the velocity v is measured. Eq. (1.4).
   static Vec rate_of_increment(const Vec& dq, const Vec& v);
   static const Point& position(const Coordinates& q) { return q.p; }
   static bool is_finite(const Coordinates& q);
-  /// Whole turns about the joint's axis such that the pose is nearest to `reference`.
+  /// Adds the whole turns about the joint's axis that bring the pose nearest to `reference`.
   static void count_turns(const Vec& reference, Vec& z) {
     constexpr double turn = 2 * std::numbers::pi;
     z[kTurn] += turn * std::round((reference[kTurn] - z[kTurn]) / turn);
@@ -90,7 +90,7 @@ struct Spatial {
     static Motion of(const Coordinates& q, const Vec& v);
     void set_velocity(const Vec& x);
     Point turned(const Point& r) const;
-    /// A force and a couple on the body at its centre of mass, in world axes, as a generalised force; r: the point where the force acts, from there.
+    /// A force and a couple on the body, in world axes, as a generalised force at its centre of mass; r: from there to the point where the force acts.
     Vec wrench(const Point& force, const Point& couple, const Point& r) const;
   };
 
@@ -100,7 +100,7 @@ struct Spatial {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
 
     static Frame at(const Point& p, const Eigen::Matrix3d& R) { return {p, R}; }
-    /// With its z axis along `axis`, which need not have length one. Throws nothing: a zero axis is taken as z.
+    /// A frame whose z axis is along `axis`, which need not have length one. Throws nothing: a zero axis counts as z.
     static Frame along(const Point& p, const Point& axis);
   };
 

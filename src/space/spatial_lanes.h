@@ -1,5 +1,5 @@
-// Where a body in space is at every stage of a step at once, one stage per lane: orientations by the rotation vector from the step's
-// start, whose rates are collocated with the angular velocities. theory/space section 2.
+// Positions of a body in space at all stages of a step at once, one stage per lane. Orientations are given by the rotation vector
+// from the start of the step, whose rates are collocated with the angular velocities. theory/space section 2.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@ struct SpatialBodyLanes {
   Vector3<L> turn, turn_rate;   // rotation vector from the start, in body axes, and its rate
   Matrix3<L> R;                 // body axes in the world
   Vector3<L> w;                 // angular velocity in world axes
-  L change;                     // of the rotation vector in the last sweep, and so far beyond its range that nothing can be found
+  L change;                     // of the rotation vector in the last sweep
 
   SpatialBodyView<L> view() const { return {{q[0], q[1], q[2]}, R, {v[0], v[1], v[2]}, w}; }
   S::Motion motion(int i) const {
@@ -52,7 +52,7 @@ struct SpatialBodyLanes {
     sweep(step);
     orient(q0.r);
   }
-  /// The first time in a step: the rotation vectors begin with the integrals of the angular velocities.
+  /// The first call in a step: the rotation vectors are initialised with the integrals of the angular velocities.
   template <class Step>
   PINTLE_LANES void begin(const Step& step, const S::Coordinates& q0, const S::Vec& v0) {
     L rates;
@@ -63,10 +63,10 @@ struct SpatialBodyLanes {
   PINTLE_LANES const L& to_check() const { return change; }
   PINTLE_LANES static bool must_check(const L&) { return false; }
   PINTLE_LANES void check() {}
-  /// Velocities have been changed.
+  /// To be called after velocities have been changed.
   PINTLE_LANES void renew_rates() { w = R * Vector3<L>{v[3], v[4], v[5]}; }
 
-  /// Displaced from q0 by increments.
+  /// Moves the body from q0 by increments.
   PINTLE_LANES void displace(const S::Coordinates& q0, const L (&dq)[6]) {
     for (int k = 0; k < 3; ++k) q[k] = L::all(q0.p[k]) + dq[k];
     turn = {dq[3], dq[4], dq[5]};
@@ -84,7 +84,7 @@ struct SpatialBodyLanes {
   static constexpr double kConverged = 1e-14;      // [rad]
   static constexpr double kMostTurn = 4.5;         // [rad]: at 2 pi the rotation vector is singular
 
-  // Eq. (2.2) by fixed-point iteration, from where it has been.
+  // Solves Eq. (2.2) by fixed-point iteration, from the current rotation vector.
   template <class Step>
   PINTLE_LANES void sweep(const Step& step) {
     const Vector3<L> spin{v[3], v[4], v[5]};

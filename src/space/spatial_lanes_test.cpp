@@ -44,7 +44,7 @@ struct Step {
   }
 };
 
-// A body that begins a step anywhere, with angular accelerations b + 2 d t.
+// A body at an arbitrary start of a step, with angular accelerations b + 2 d t.
 struct Start {
   S::Coordinates q{{0.3, -0.2, 0.9}, rotation::quaternion({0.4, -1.1, 0.7})};
   S::Vec v{{0.5, -0.3, 0.8, 1.3, -0.8, 0.9}};
@@ -60,7 +60,7 @@ struct Start {
     for (int i = 1; i < passes; ++i) body.place(step, q, v);
     return body;
   }
-  // As many short turns at the angular velocities half way give.
+  // The product of many short rotations, each at the angular velocity in its middle.
   Quaternion turned(double h) const {
     constexpr int n = 20000;
     Quaternion r = q.r;
@@ -102,7 +102,7 @@ TEST(SpatialLanes, OrientationsHaveTheMethodsOrder) {
     const double error = start.turned(h).angularDistance(start.after(h, 4).coordinates(2, start.q).r);
     EXPECT_LT(error, 3e-4 * std::pow(h / 0.4, 5.5)) << h;
     if (last > 0) {
-      EXPECT_GT(last / error, 40) << h;  // 2^6 in the limit: the error of one step of order 5
+      EXPECT_GT(last / error, 40) << h;  // 2^6 in the limit: the local error of a method of order 5
     }
     last = error;
   }
@@ -149,7 +149,7 @@ TEST(SpatialLanes, DisplacedBodiesAreWhereIncrementsMoveThem) {
   }
 }
 
-// Half a turn and more within a step, about an axis that moves: what a pass leaves is answered by the next.
+// Half a turn and more within a step, about a moving axis: the next pass corrects the error that a pass leaves.
 TEST(SpatialLanes, IterationsContractInLongSteps) {
   const Step step(1);
   Body body;
@@ -173,7 +173,7 @@ TEST(SpatialLanes, IterationsContractInLongSteps) {
   EXPECT_GT(rotation::square_of(body.turn)[2], 3.2 * 3.2);
 }
 
-// A step that turns a body by much of a whole turn is too long: no number comes out of it.
+// A step in which a body turns through most of a whole turn is too long: it yields NaN.
 TEST(SpatialLanes, TooLongATurnIsNoNumber) {
   const Step step(1);
   for (const double speed : {4.0, 5.0, 50.0}) {

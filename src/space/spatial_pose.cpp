@@ -13,13 +13,13 @@ Matrix matrix_of(const Matrix3<double>& R) {
   out << R.xx, R.xy, R.xz, R.yx, R.yy, R.yz, R.zx, R.zy, R.zz;
   return out;
 }
-// The matrix of a x .
+// The matrix of the cross product a x .
 Matrix crossing(const S::Point& a) {
   Matrix out;
   out << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return out;
 }
-// The derivative of k = 1 / (1 + n_z) by n_z; where k is held, none.
+// The derivative of k = 1 / (1 + n_z) by n_z; zero where k is limited.
 double slope_of(double n_z, double k) { return 1 + n_z < rotation::kLeastOnePlusCosine ? 0 : -k * k; }
 
 }  // namespace
@@ -42,7 +42,7 @@ S::Point SpatialRelativePose::world_couple(const S::Vec& f) const {
   return pintle::vector_of(map.RF * couple_of(map.n, map.k, f[3], f[4], f[5]));
 }
 
-// Eqs. (3.10), (3.11): the changes of force and couple in world axes, then of their moments in those of the bodies.
+// Eqs. (3.10), (3.11): the changes of force and couple in world axes, then those of the moments in the bodies' axes.
 Eigen::Matrix<double, 12, 12> SpatialRelativePose::geometric(const S::Vec& f) const {
   const Matrix RA = matrix_of(map.RA), RB = matrix_of(map.RB), RF = matrix_of(map.RF);
   const double x = map.n.x, y = map.n.y, slope = slope_of(map.n.z, map.k);

@@ -1,6 +1,6 @@
-// How frame M (on body B) stands and moves as seen from frame F (on body A), in space: theory/space section 3. The relative pose z has six
-// components: the position of M's origin in F's axes; the tilts of M's z axis about F's x and y axes, by their sines; and the turn about
-// the z axis, the sum of the turns before and after the tilt. Joints are selections of them or functions of them.
+// Position and motion of frame M (on body B) relative to frame F (on body A), in space: theory/space section 3. The relative pose z has
+// six components: the position of M's origin in F's axes; the tilts of M's z axis about F's x and y axes, by their sines; and the turn
+// about the z axis, the sum of the turns before and after the tilt. Joints are selections from them or functions of them.
 #pragma once
 
 #include "space/spatial.h"
@@ -16,7 +16,7 @@ struct SpatialBodyView {
 };
 
 namespace rotation {
-/// 1 / (1 + n), n the cosine of a tilt, but a number also at half a turn, where the turn about the axis is undefined: a joint that leaves
+/// 1 / (1 + n), n the cosine of a tilt, but finite also at half a turn, where the turn about the axis is undefined: a joint that leaves
 /// both free has no force there for it to multiply. theory/space Eq. (3.4) and section 3.6.
 inline constexpr double kLeastOnePlusCosine = 1e-12;
 inline double over_one_plus(double n) { return 1 / std::max(1 + n, kLeastOnePlusCosine); }
@@ -26,28 +26,28 @@ PINTLE_LANES Lanes<N> over_one_plus(const Lanes<N>& n) {
 }
 }  // namespace rotation
 
-/// J w in components 3 to 5 of `rate`: the rates of the tilts and of the turn at the relative angular velocity w; n is M's z axis, both in F's axes, and
-/// k = 1 / (1 + n_z). theory/space Eq. (3.4).
+/// J w in components 3 to 5 of `rate`: the rates of the tilts and of the turn at the relative angular velocity w. n is M's z axis, k = 1 / (1 + n_z); n
+/// and w are in F's axes. theory/space Eq. (3.4).
 template <class T, class U, class Rate>
 PINTLE_LANES void put_turning(const Vector3<T>& n, const T& k, const Vector3<U>& w, Rate&& rate) {
   rate[3] = n.z * w.x - n.x * w.z;
   rate[4] = n.z * w.y - n.y * w.z;
   rate[5] = k * (n.x * w.x + n.y * w.y) + w.z;
 }
-/// J' (tilt_x, tilt_y, turn): the couple, in F's axes, of what acts on the tilts and on the turn.
+/// J' (tilt_x, tilt_y, turn): the couple, in F's axes, of moments conjugate to the tilts and the turn.
 template <class T, class U>
 PINTLE_LANES Vector3<U> couple_of(const Vector3<T>& n, const T& k, const U& tilt_x, const U& tilt_y, const U& turn) {
   return {n.z * tilt_x + (k * n.x) * turn, n.z * tilt_y + (k * n.y) * turn, turn - (n.x * tilt_x + n.y * tilt_y)};
 }
 
-/// What z, z' and z'' are made of; T is a number, or one number per stage of a step.
+/// The quantities from which z, z' and z'' are formed; T is a number, or one number per stage of a step.
 template <class T>
 struct SpatialPoseGeometry {
   Matrix3<T> RA, RB, RF;      // axes of the bodies and of F in the world
   Matrix3<T> R;               // axes of M in F's
   Vector3<T> d;               // from F to M, world axes [m]
   Vector3<T> arm_a, arm_b;    // from A's, from B's centre of mass to M, world axes [m]
-  Vector3<T> dd;              // rate of d less that of F's turning, world axes [m/s]
+  Vector3<T> dd;              // rate of d minus the part due to F's rotation, world axes [m/s]
   Vector3<T> w, wa;           // relative angular velocity and that of A, F's axes [rad/s]
   Vector3<T> bias;            // convective acceleration of M's origin, F's axes [m/s^2]
 
@@ -117,15 +117,15 @@ struct SpatialPoseGeometry {
 };
 
 /// From forces of a gap to forces on bodies, and from accelerations of bodies to that of the gap: G' and G of a pose, times the gradient
-/// where the gap is a function of the pose. Moments and angular accelerations are in the axes of each body. Eqs. (3.7), (3.8).
+/// if the gap is a function of the pose. Moments and angular accelerations are in the axes of each body. Eqs. (3.7), (3.8).
 template <class T>
 struct SpatialGapMap {
   Matrix3<T> RA, RB, RF;
   Vector3<T> arm_a, arm_b, n;  // n: M's z axis in F's axes
   T k;                         // 1 / (1 + n_z)
   static constexpr int kMostFunctions = 1;
-  T gradient[kMostFunctions][6];  // of the first component, where it is a function
-  int functions = 0;              // 1 if so; then there are no others
+  T gradient[kMostFunctions][6];  // of the first component, if it is a function
+  int functions = 0;              // 1 if so; there are no other components then
 
   PINTLE_LANES void set(const SpatialPoseGeometry<T>& pose) {
     RA = pose.RA;
@@ -187,7 +187,7 @@ struct SpatialGapMap {
     for (int i = 0; i < 6; ++i) on_a[i] = on_b[i] = U(0.0);
     push(f, on_a, on_b);
   }
-  /// on_a, on_b += the magnitudes of that.
+  /// on_a, on_b += the magnitudes of the same forces and moments.
   template <class U, class V>
   PINTLE_LANES void push_magnitudes(const U* f, V& on_a, V& on_b) const {
     const Wrenches<U> on = spread(f);
@@ -231,7 +231,7 @@ struct SpatialGapMap {
     on[4] += moment.y;
     on[5] += moment.z;
   }
-  // w x arm, of an arm of other numbers.
+  // w x arm, where the arm has another number type.
   template <class U>
   PINTLE_LANES static Vector3<U> cross_back(const Vector3<T>& arm, const Vector3<U>& w) {
     return {arm.z * w.y - arm.y * w.z, arm.x * w.z - arm.z * w.x, arm.y * w.x - arm.x * w.y};
@@ -270,7 +270,7 @@ struct SpatialRelativePose {
   using S = Spatial;
   S::Vec z, rate, bias;
   SpatialGapMap<double> map;
-  SpatialBodyView<double> A, B;        // what it was made from
+  SpatialBodyView<double> A, B;        // from which it was made
   SpatialFrame<double> F, M;
 
   S::Mat GA() const { return map.GA(); }
@@ -278,13 +278,13 @@ struct SpatialRelativePose {
 
   static SpatialRelativePose between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M);
 
-  /// The force of z-components f (conjugate to z, on B) in world axes [N].
+  /// The force in world axes [N] of z-components f (conjugate to z, on B).
   S::Point world_force(const S::Vec& f) const { return pintle::vector_of(map.RF * Vector3<double>{f[0], f[1], f[2]}); }
   /// The couple of f on B about M's origin in world axes [N*m].
   S::Point world_couple(const S::Vec& f) const;
   /// d(GA' f)/dq and d(GB' f)/dq at constant f: the geometric stiffness, 12 x 12 over (qA, qB), in the bodies' axes. Eqs. (3.9)-(3.11).
   Eigen::Matrix<double, 12, 12> geometric(const S::Vec& f) const;
-  /// d(rate)/dq over (qA, qB), 6 x 12, of the motions it was made from. Eqs. (3.12), (3.13).
+  /// d(rate)/dq over (qA, qB), 6 x 12, for the motions from which the pose was made. Eqs. (3.12), (3.13).
   Eigen::Matrix<double, 6, 12> rate_gradient(const S::Motion& A, const S::Motion& B) const;
 };
 

@@ -1,4 +1,4 @@
-// theory/space section 3, at placements of every tilt.
+// theory/space section 3, at placements with tilts of all sizes.
 #include "space/spatial_pose.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using Both = Eigen::Matrix<double, 12, 1>;
 using sample::Random;
 using sample::slope_at_zero;
 
-constexpr double kTilts[] = {0, 1e-6, 0.3, 1.2, 2.0, 2.6, 3.0};  // [rad]; 2.6 are 149 degrees
+constexpr double kTilts[] = {0, 1e-6, 0.3, 1.2, 2.0, 2.6, 3.0};  // [rad]; 2.6 rad is 149 degrees
 
 Quaternion about(const Point& axis, double angle) { return Quaternion(Eigen::AngleAxisd(angle, axis)); }
 
@@ -30,7 +30,7 @@ struct Pair {
   S::Frame F, M;
 
   S::RelativePose pose() const { return S::RelativePose::between(S::Motion::of(a, va), F, S::Motion::of(b, vb), M); }
-  // Displaced by increments of both.
+  // Displaced by increments of both bodies.
   Pair displaced(const Both& by) const {
     Pair to = *this;
     S::move(to.a, by.head<6>());
@@ -45,7 +45,7 @@ struct Pair {
   }
 };
 
-// Anywhere, with M's z axis tilted by this angle against F's: turned by `before` about F's z axis, tilted, turned by `after` about M's.
+// At random positions, with M's z axis tilted by this angle against F's: turned by `before` about F's z axis, tilted, turned by `after` about M's.
 Pair pair(Random& random, double tilt, double before, double after) {
   Pair p;
   const auto any = [&] { return rotation::quaternion(random.vector<Point>(-2, 2)); };
@@ -60,7 +60,7 @@ Pair pair(Random& random, double tilt, double before, double after) {
 }
 Pair pair(Random& random, double tilt) { return pair(random, tilt, random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5)); }
 
-// How fast the turn's derivatives grow near a tilt of half a turn, where it is singular.
+// Growth of the turn's derivatives near a tilt of half a turn, where the turn is singular.
 double steepness(double tilt) { return 2 / (1 + std::cos(tilt)); }
 
 Both wrenches(const S::RelativePose& pose, const S::Vec& f) {
@@ -152,7 +152,7 @@ TEST(SpatialPose, PushIsTheTransposeOfGatherAlsoThroughAGradient) {
       if (function) {
         EXPECT_EQ(e.tail<5>(), (Eigen::Matrix<double, 5, 1>::Zero()));
       }
-      // Magnitudes are those of the same wrenches.
+      // The magnitudes are those of the same wrenches.
       Both sizes = Both::Zero();
       double *on_a = sizes.data(), *on_b = on_a + 6;
       pose.map.push_magnitudes(f.data(), on_a, on_b);
@@ -171,7 +171,7 @@ TEST(SpatialPose, ActionIsReaction) {
     const Point moment_a = p.a.r * Point(on.segment<3>(3)), moment_b = p.b.r * Point(on.segment<3>(9));
     EXPECT_EQ(force_a, Point(-force_b));
     EXPECT_LT((moment_a + p.a.p.cross(force_a) + moment_b + p.b.p.cross(force_b)).norm(), 1e-14 * steepness(tilt) * f.norm());
-    // As results state them: a force and a couple on B at M's origin.
+    // As in the results: a force and a couple on B at M's origin.
     EXPECT_LT((pose.world_force(f) - force_b).norm(), 1e-15 * f.norm());
     EXPECT_LT((pose.world_couple(f) + (p.b.r * p.M.p).cross(force_b) - moment_b).norm(), 1e-14 * steepness(tilt) * f.norm());
   }
@@ -196,7 +196,7 @@ TEST(SpatialPose, NothingChangesUnderACommonMotion) {
     EXPECT_LT((here.bias - there.bias).norm(), 10 * close);
     EXPECT_LT((wrenches(here, f).segment<3>(3) - wrenches(there, f).segment<3>(3)).norm(), close);
     EXPECT_LT((turn * Point(wrenches(here, f).segment<3>(6)) - Point(wrenches(there, f).segment<3>(6))).norm(), close);
-    // In a world that moves: rates and z'' are those of the world at rest.
+    // In a moving world: rates and z'' equal those of the world at rest.
     Pair carried = p;
     S::Vec aa = random.vector<S::Vec>(-2, 2), ab = random.vector<S::Vec>(-2, 2);
     const S::Vec second = here.GA() * aa + here.GB() * ab + here.bias;
@@ -225,7 +225,7 @@ TEST(SpatialPose, GeometricStiffnessIsTheSlopeOfTheWrenches) {
       const Both slope = slope_at_zero(1e-4, [&](double x) { return wrenches(p.displaced(x * Both::Unit(c)).pose(), f); });
       EXPECT_LT((N.col(c) - slope).norm(), 1e-10 * std::pow(steepness(tilt), 3)) << tilt << " " << c;
     }
-    // Turns about two axes of a body do not commute: the moments on it are all of N that is not symmetric.
+    // Rotations about two axes of a body do not commute: the moments on the body account for all of N's asymmetry.
     const Both on = wrenches(p.pose(), f);
     Eigen::Matrix<double, 12, 12> skew = Eigen::Matrix<double, 12, 12>::Zero();
     for (const int at : {3, 9})
@@ -264,7 +264,7 @@ TEST(SpatialPose, SpringsInAllComponentsHaveAPotential) {
   }
 }
 
-// z axes along the world's and motion in its plane: components (x, y, turn) of the plane's pose, and nothing in the others.
+// z axes along the world's and motion in its plane: components (x, y, turn) are those of the planar pose, the others are zero.
 TEST(SpatialPose, ThePlaneLiesInSpace) {
   Random random(11);
   constexpr int kOf[] = {0, 1, 5};
@@ -296,7 +296,7 @@ TEST(SpatialPose, ThePlaneLiesInSpace) {
   }
 }
 
-// Bodies side by side in lanes.
+// Bodies in lanes.
 TEST(SpatialPose, LanesAreThePlainNumbers) {
   Random random(12);
   using L = Lanes<4>;
@@ -360,7 +360,7 @@ TEST(SpatialPose, LanesAreThePlainNumbers) {
   }
 }
 
-// M's z axis against F's, exactly and within rounding: the turn is undefined, but everything is a number, and right in what else there is.
+// M's z axis opposite to F's, exactly and within rounding: the turn is undefined, but everything is finite, and all other components are right.
 TEST(SpatialPose, AtHalfATurnOfTiltNumbersStayNumbers) {
   for (const double n : {-1.0, std::nextafter(-1.0, -2.0), std::nextafter(-1.0, 0.0), -1 + 1e-11, 0.3})
     EXPECT_EQ(rotation::over_one_plus(Lanes<3>(n))[1], rotation::over_one_plus(n)) << n;
@@ -377,7 +377,7 @@ TEST(SpatialPose, AtHalfATurnOfTiltNumbersStayNumbers) {
     EXPECT_TRUE(pose.z.allFinite() && pose.rate.allFinite() && pose.bias.allFinite()) << off;
     EXPECT_TRUE(jacobian(pose).allFinite() && N.allFinite()) << off;
     EXPECT_TRUE(pose.rate_gradient(S::Motion::of(p.a, p.va), S::Motion::of(p.b, p.vb)).allFinite()) << off;
-    // Forces of what a ball joint holds do not know of it.
+    // Forces in the directions that a ball joint holds do not depend on the tilt.
     Pair level = p;
     level.M.R = Eigen::Matrix3d::Identity();
     EXPECT_EQ(wrenches(pose, held), wrenches(level.pose(), held)) << off;
@@ -395,7 +395,7 @@ TEST(SpatialPose, CountsWholeTurnsFromAReference) {
   reference[S::kTurn] = -3 * turn - 0.1;
   S::count_turns(reference, z);
   EXPECT_NEAR(z[S::kTurn], -3 * turn + 0.25, 1e-14);
-  // A shaft that turns on is followed through every turn.
+  // A shaft that keeps turning is followed through every turn.
   Random random(13);
   Pair p = pair(random, 0.2, 0.3, 0.4);
   S::Vec last = p.pose().z;

@@ -65,9 +65,9 @@ class Builder {
     if (!marker) refuse(fmt::format("body {} has no marker '{}'", ref.body, ref.marker));
     return S::Frame::at({marker->position[0], marker->position[1]}, marker->axis);
   }
-  // A long row of markers, such as the ground's of many mechanisms, is indexed when it is first asked.
+  // A long list of markers, such as the ground's in a model of many mechanisms, is indexed at the first lookup.
   const Marker* find_marker(const std::vector<Marker>& row, const std::string& name) const {
-    constexpr std::size_t kFew = 16;  // markers of a body that are looked through one by one; with more they are indexed
+    constexpr std::size_t kFew = 16;  // up to this many markers of a body are searched one by one; longer lists are indexed
     if (row.size() <= kFew) {
       const auto it = std::find_if(row.begin(), row.end(), [&name](const Marker& marker) { return marker.name == name; });
       return it == row.end() ? nullptr : &*it;
@@ -102,7 +102,7 @@ class Builder {
     return std::make_shared<const Chambers>(number("bore", 0), number("rod_diameter", 0), ambient, pressure("cap_pressure"), pressure("rod_pressure"));
   }
 
-  // A law with a rest position of its own also says where the gap counts from.
+  // A law with a rest position of its own also determines where the gap counts from.
   static Law make_law(const Joint& joint, const JointTypeInfo& type, const std::array<bool, 3>& held, JointDisplacement& displacement) {
     LawSetting setting;
     setting.joint_type = joint.type;
@@ -216,7 +216,7 @@ class Builder {
     read_signals("motor", motor.joint, component, load);
     return load;
   }
-  // `own`: the joint whose coordinate stands there without a name, and the component of it; empty: none.
+  // `own`: the joint whose coordinate may be given without a joint name, and the component of it; empty: none.
   void read_signals(const char* kind, const std::string& own, int component, LoadData& load) const {
     const std::vector<std::string>& variables = load.law.variables();
     if (variables.size() > static_cast<std::size_t>(kMaxSignals)) refuse(fmt::format("{} {}: an expression may read {} signals at most", kind, load.name, kMaxSignals));
@@ -239,7 +239,7 @@ class Builder {
     }
     return find_body_signal(of, word);
   }
-  // As seen from the ground: of a body's centre of mass, or of one of its markers.
+  // As seen from the ground: a coordinate of a body's centre of mass, or of one of its markers.
   std::optional<Signal> find_body_signal(const std::string& of, std::string_view word) const {
     constexpr std::array<std::string_view, 6> kWords{"x", "y", "angle", "vx", "vy", "spin"};
     const auto found = std::find(kWords.begin(), kWords.end(), word);
@@ -278,7 +278,7 @@ class Builder {
     for (int component = 0; component < 3; ++component)
       if (!along[component]->variables().empty() || along[component]->value({}) != 0) add_effort(force, on, component, *along[component]);
   }
-  // Along the place of the point as seen from the ground, or the ground's as seen from the point in its body's axes; or the angle.
+  // Along the position of the point as seen from the ground, or that of the ground as seen from the point in its body's axes; or along the angle.
   void add_effort(const AppliedForce& force, int on, int component, const Expression& law) {
     LoadData load;
     load.name = force.name;
@@ -304,10 +304,10 @@ class Builder {
 
 const Joint* model_joint(const Model& model, std::size_t j) { return j < model.joints.size() ? &model.joints[j] : nullptr; }
 
-// A rod or rope whose length is what it is when assembled; that of a cylinder is stated.
+// Whether the length of a rod or rope is taken from the assembled position; a cylinder's length is stated.
 bool is_measured(const Joint& joint) { return !joint.functions.contains("length") && !joint.geometry.contains("length") && joint.type != "cylinder"; }
 
-// As assembled [m].
+// Stretch in the assembled position [m].
 double stretch_of(const Joint& joint) {
   const auto stretch = joint.geometry.find("stretch");
   return stretch == joint.geometry.end() ? 0 : stretch->second;
@@ -324,7 +324,7 @@ void settle_joint(const Joint& joint, const RelativePose& pose, JointDisplacemen
   }
   if (auto* mesh = std::get_if<Mesh>(&displacement)) mesh->phase -= (*mesh)(pose.z).gap;
   if (auto* rack = std::get_if<RackMesh>(&displacement)) {
-    // The pinion's centre in the rack's axes: minus the rack's place in the pinion's, turned.
+    // The pinion's centre in the rack's axes: minus the rack's position in the pinion's, rotated.
     const double across = pose.z[0] * std::sin(pose.z[2]) - pose.z[1] * std::cos(pose.z[2]);
     rack->side = across >= 0 ? 1 : -1;
     rack->phase -= (*rack)(pose.z).gap;

@@ -9,22 +9,21 @@
 
 namespace pintle {
 
-/// The system of a model. What depends on the assembled positions (a rod without a stated length, gear phases, free
-/// lengths, where a constant-speed drive starts) is still open: `fix_assembled_values` fixes it, as every start does (start/start.h).
-/// Throws std::invalid_argument on names that do not exist; models from files have been checked before. `like`: a system that this
-/// one may be a variant of.
+/// The system of a model. Values that depend on the assembled positions (a rod without a stated length, gear phases, free lengths,
+/// the start of a constant-speed drive) are still open: `fix_assembled_values` sets them, as every start does (start/start.h). Throws
+/// std::invalid_argument for names that do not exist; models from files have been checked before. `like`: a system of which this one may be a variant.
 [[nodiscard]] System build_system(const Model& model, const System* like = nullptr);
 
-/// Is the gap of joint j known before assembly? Not so for rods without length, gears, racks and constant-speed drives.
+/// Whether the gap of joint j is unknown before assembly, as for rods without a length, gears, racks and constant-speed drives.
 bool is_open(const Model& model, const System& system, int j);
 
-/// `system` with what depends on the assembled positions q. `notes` receives a line for each value that was assumed.
+/// `system` with the values that depend on the assembled positions q. `notes` receives a line for each value that was assumed.
 [[nodiscard]] System fix_assembled_values(const Model& model, System system, const Vecs& q, std::vector<std::string>& notes);
 
-/// `system` with welds and sliders turned by whole turns, so that their angle is within half a turn of zero at q.
+/// `system` with welds and sliders shifted by whole turns, so that their angle is within half a turn of zero at q.
 [[nodiscard]] System unwind(System system, const Vecs& q);
 
-/// `system` with more joints behind its own.
+/// `system` with more joints appended to its own.
 [[nodiscard]] System with_joints(const System& system, const std::vector<JointData>& joints);
 
 }  // namespace pintle

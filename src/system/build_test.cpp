@@ -13,7 +13,7 @@ namespace {
 using S = Planar;
 using sample::Random;
 
-// Two bodies and a joint of the type between them.
+// Two bodies with a joint of this type between them.
 Model model_of(const std::string& type) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
@@ -50,7 +50,7 @@ TEST_P(JointType, PassesTheCommonBattery) {
   }
 }
 
-// The law resists exactly the components that the catalog names; what is free in the catalog is free in the system.
+// The law resists exactly the components that the catalog names; the catalog's free components are free in the system.
 TEST_P(JointType, ResistsWhatTheCatalogSays) {
   const System system = build_system(model_of(GetParam()));
   const JointTypeInfo& info = *find_joint_type(GetParam());
@@ -174,7 +174,7 @@ TEST(BuildSystem, RefusesAJointOfABodyWithItself) {
   expect_refused(model, "same body");
 }
 
-// A body that hangs on a spring of the assembled length 2 m.
+// A body that hangs on a spring with the assembled length 2 m.
 Model hanging() {
   Model model = sample::pendulum(1e6, 0);
   model.ground.push_back({"H", {0.0, 2}, 0});
@@ -202,7 +202,7 @@ TEST(Settle, FreeLengthIsTheAssembledOneLessThePreload) {
   EXPECT_EQ(settled_system(model, notes).loads[0].free, 0.9);
 }
 
-// Forces that read coordinates are loads too, behind the springs.
+// Forces that read coordinates are loads too; they come after the springs.
 TEST(Settle, FreeLengthIsTheSpringsOwnBesideAForceThatReads) {
   std::vector<std::string> notes;
   Model model = hanging();
@@ -222,7 +222,7 @@ TEST(Settle, ADamperWithoutStiffnessHasNoForceAtRest) {
   const System system = settled_system(model, notes);
   std::vector<S::Motion> m;
   system.motions({{0.5, 0, 0}}, {{0, 3, 0}}, m);
-  EXPECT_NEAR(system.load_effort(system.loads[0], 0, m), 3, 1e-12);  // shortens at 3 m/s: it pushes
+  EXPECT_NEAR(system.load_effort(system.loads[0], 0, m), 3, 1e-12);  // it shortens at 3 m/s, so it pushes
   EXPECT_EQ(system.external_work(0, {{0.5, 0, 0}}, m).potential, 0);
 }
 
@@ -236,7 +236,7 @@ TEST(Settle, APreloadWithoutStiffnessPullsAtAnyLength) {
   for (const double lift : {0.0, 0.5, -1.0}) {
     system.motions({{0.5, lift, 0}}, {{0, 3, 0}}, m);
     EXPECT_EQ(system.load_effort(system.loads[0], 0, m), -30);
-    // With its own weight: lifting by the spring's pull stores less in the spring.
+    // With the body's own weight: lifting along the spring's pull stores less energy in the spring.
     EXPECT_NEAR(system.external_work(0, {{0.5, lift, 0}}, m).potential, (9.81 - 30) * lift, 1e-12);
   }
 }

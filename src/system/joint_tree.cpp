@@ -16,9 +16,9 @@ using S = Planar;
 
 double offset(const JointData& joint, int component) { return std::get<Selection>(joint.displacement).offset[component]; }
 
-// How a rigid motion of the parent moves a body `arm` away. Eq. (2.2).
+// Motion of a body at the distance `arm` that follows a rigid motion of its parent. Eq. (2.2).
 S::Vec carried(const S::Point& arm, const S::Vec& x) { return {x[0] - arm.y() * x[2], x[1] + arm.x() * x[2], x[2]}; }
-// The same forces and moments, one in a column, about a point `arm` before. Transpose of `carried`.
+// The same forces and moments, one per column, about a point shifted by -`arm`. Transpose of `carried`.
 template <class Forces>
 Eigen::Matrix<double, 3, Forces::ColsAtCompileTime> about_parent(const S::Point& arm, const Forces& f) {
   Eigen::Matrix<double, 3, Forces::ColsAtCompileTime> moved = f;
@@ -52,7 +52,7 @@ JointTree::JointTree(const System& system)
   open_the_rest();
 }
 
-// The nearest bodies first, so that branches stay short and a loop is opened opposite to where it starts.
+// Breadth first: nearest bodies first, so that branches stay short and a loop is opened opposite to its start.
 void JointTree::grow(int from, const std::vector<std::vector<int>>& ideal_at) {
   std::vector<int> queue{from};
   for (std::size_t next = 0; next < queue.size(); ++next) {
@@ -86,7 +86,7 @@ void JointTree::open_the_rest() {
   }
 }
 
-// The tree's joints between both bodies of a joint, named from its first body to its second, with their verb.
+// The tree's joints between the two bodies of a joint, in order from its first body to its second, with their verb.
 std::string JointTree::loop_of(int joint) const {
   std::array<std::vector<int>, 2> path;  // bodies from each end to the root
   const Placement& at = system_.joints[joint].at;
@@ -177,7 +177,7 @@ void JointTree::place_on_parent(int body, const Eigen::VectorXd& y, const Eigen:
   const double slide = link.slide < 0 ? offset(joint, 0) : y[link.first + link.slide];
   const double turn = link.turn < 0 ? offset(joint, 2) : y[link.first + link.turn];
   const double sign = link.forward ? 1 : -1;
-  // Eq. (1.3): the angle first, then the place.
+  // Eq. (1.3): the angle first, then the position.
   S::Motion B;
   B.angle = P.angle + sign * (F.angle + turn - M.angle);
   B.c = std::cos(B.angle);
@@ -277,7 +277,7 @@ void JointTree::jacobian(const TreePose& pose, Eigen::MatrixXd& J) const {
   }
 }
 
-// From the pivot of a body's turning coordinate to its centre of mass: what (2.2) turns for S. None: zero.
+// From the pivot of a body's turning coordinate to its centre of mass: the arm of (2.2) for S. Zero if there is no such coordinate.
 S::Point JointTree::lever(const TreePose& pose, int body) const {
   const Link& link = link_[body];
   if (link.joint < 0 || link.turn < 0) return S::Point::Zero();
@@ -288,7 +288,7 @@ S::Point JointTree::lever(const TreePose& pose, int body) const {
 void JointTree::motion_slopes(const TreePose& pose, const Vecs& a, TreeMotionSlopes& out) const {
   for (Eigen::MatrixXd* x : {&out.velocity, &out.acceleration, &out.acceleration_by_rate}) x->setZero(3 * static_cast<Eigen::Index>(link_.size()), n_);
   const auto at = [](int body, const Vecs& x) { return body == kGround ? S::Vec(S::Vec::Zero()) : x[body]; };
-  // Velocity and acceleration of the point of a body that stands `arm` from its centre of mass.
+  // Velocity and acceleration of the point of a body at `arm` from its centre of mass.
   const auto velocity_of = [](const S::Vec& v, const S::Point& arm) { return S::Point(v.head<2>() + v[2] * S::perp(arm)); };
   const auto acceleration_of = [](const S::Vec& v, const S::Vec& x, const S::Point& arm) {
     return S::Point(x.head<2>() + x[2] * S::perp(arm) - v[2] * v[2] * arm);
@@ -296,8 +296,8 @@ void JointTree::motion_slopes(const TreePose& pose, const Vecs& a, TreeMotionSlo
   struct Coordinate {
     bool turns;
     double sign;       // turning: of the angle
-    S::Point v, a;     // turning: the pivot's; sliding: what each metre adds everywhere
-    S::Point by_rate;  // sliding: what each metre per second adds to accelerations
+    S::Point v, a;     // turning: the pivot's; sliding: change everywhere per metre
+    S::Point by_rate;  // sliding: change of accelerations per metre per second
   };
   std::vector<Coordinate> coordinate(static_cast<std::size_t>(n_));
   for (const int body : order_) {
@@ -307,7 +307,7 @@ void JointTree::motion_slopes(const TreePose& pose, const Vecs& a, TreeMotionSlo
       Coordinate& c = coordinate[link.first + k];
       c.turns = column[2] != 0;
       c.sign = column[2];
-      if (c.turns) {  // about a point of the body, or, where the joint is passed from its second body, of its parent
+      if (c.turns) {  // about a point of the body or, if the joint is traversed from its second body, of its parent
         const bool own = link.forward || link.joint < 0;
         const S::Point to_pivot = own ? S::Point(-lever(pose, body)) : S::Point(pose.arm[body] - lever(pose, body));
         const int carrier = own ? body : link.parent;
@@ -337,15 +337,15 @@ void JointTree::motion_slopes(const TreePose& pose, const Vecs& a, TreeMotionSlo
 
 void JointTree::geometric_stiffness(const TreePose& pose, const Vecs& g, Eigen::MatrixXd& out) const {
   out.setZero(n_, n_);
-  std::vector<S::Point> force(g.size());               // of a body and all that it carries
-  std::vector<double> virial(g.size(), 0.0);           // the sum of their arms about its centre of mass times their forces
+  std::vector<S::Point> force(g.size());               // on a body and all that it carries
+  std::vector<double> virial(g.size(), 0.0);           // sum over its forces: arm about the body's centre of mass times force
   for (std::size_t i = 0; i < g.size(); ++i) force[i] = g[i].head<2>();
   for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
     const int body = *at;
     const Link& link = link_[body];
     const int turn = link.joint < 0 ? 2 : link.turn;
     const double about_pivot = virial[body] + lever(pose, body).dot(force[body]);
-    // The coordinate nearer to the tips turns or moves what hangs on it; only turns before it feel that.
+    // The coordinate nearer to the tips turns or moves its subtree; only turns before it in the tree are affected.
     const auto turns_before = [&](bool own, auto&& use) {
       if (own && turn >= 0) use(link.first + turn, pose.S[body](2, turn));
       for (int b = link.parent; b != kGround; b = link_[b].parent) {
@@ -373,7 +373,7 @@ void JointTree::reactions(const TreePose& pose, const Vecs& a, const Vecs& Q, Ve
     const Link& link = link_[*body];
     if (link.parent != kGround) needed[link.parent] += about_parent(pose.arm[*body], needed[*body]);
     if (link.joint < 0) continue;
-    // Eq. (4.2): with G the pose's Jacobian of the carried body, G' f = what it needs; nothing in free components.
+    // Eq. (4.2): with G the pose's Jacobian of the carried body, G' f = the required force; zero in free components.
     const JointData& joint = system_.joints[link.joint];
     const RelativePose z = system_.pose(joint.at, pose.m);
     const S::Point world = link.forward ? S::Point(needed[*body].head<2>()) : S::Point(-needed[*body].head<2>());

@@ -1,4 +1,4 @@
-// The recursions over a joint tree against what they stand for: differences along a path, J'MJ, the balance of every body.
+// The recursions over a joint tree against their definitions: differences along a path, J'MJ, the balance of every body.
 #include "system/joint_tree.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ System all_ideal(System system) {
   return system;
 }
 
-// Trees that grow along joints from their first body and from their second, on the ground and afloat, of every type.
+// Trees that grow through joints from their first body and from their second, grounded and floating, with every type.
 const std::vector<System>& trees() {
   static const std::vector<System> all{with_ideal({}),         with_ideal({"g", "r", "p", "f"}), with_ideal({"h", "p", "f", "s"}),
                                        with_ideal({"r", "p", "f", "s"}), with_ideal({"r", "p", "f"}, true), with_ideal({"g", "s", "f"})};
@@ -180,7 +180,7 @@ TEST_P(JointTrees, ForcesChangeOnCoordinatesByTheGeometricStiffness) {
   }
 }
 
-// M a = Q + G' f for every body by itself, with f of the tree's joints from the inward pass, when the coordinates' equations hold.
+// M a = Q + G' f for every body separately, with f of the tree's joints from the inward pass, when the coordinates' equations hold.
 TEST_P(JointTrees, ReactionsBalanceEveryBody) {
   Vecs Q, a, needed(system.bodies.size()), force(system.joints.size(), S::Vec::Zero());
   system.external(0, pose.m, Q);
@@ -202,7 +202,7 @@ TEST_P(JointTrees, ReactionsBalanceEveryBody) {
     EXPECT_LT((system.bodies[i].mass.cwiseProduct(a[i]) - Q[i]).norm(), 1e-12 * (10 + largest)) << system.bodies[i].name;
 }
 
-// An impact within ideal joints: what is left over of the momentum has no component along any coordinate.
+// An impact within ideal joints: the lost momentum has no component along any coordinate.
 TEST_P(JointTrees, RatesKeepTheMomentumAlongEveryCoordinate) {
   Vecs v(system.bodies.size()), lost(system.bodies.size());
   for (auto& x : v) x = random.vector<S::Vec>(-2, 2);
@@ -220,7 +220,7 @@ TEST(JointTree, CountsCoordinates) {
   EXPECT_EQ(JointTree(trees()[0]).n(), 18);              // six free bodies
   EXPECT_EQ(JointTree(trees()[1]).n(), 1 + 1 + 1 + 0 + 6);  // revolute, revolute, prismatic, fixed, two free bodies
   EXPECT_EQ(JointTree(trees()[2]).n(), 1 + 1 + 0 + 2 + 6);  // prismatic, prismatic, fixed, slot
-  EXPECT_EQ(JointTree(trees()[4]).n(), 3 + 1 + 1 + 0 + 6);  // afloat: its first body has three
+  EXPECT_EQ(JointTree(trees()[4]).n(), 3 + 1 + 1 + 0 + 6);  // floating: its first body has three
 }
 
 TEST(JointTree, ServosAndPlainJointsStayLaws) {

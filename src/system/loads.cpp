@@ -63,12 +63,12 @@ double power_on(const Planar::Motion& body, const PlanarWrench& w, const Planar:
   return w.force.dot(body.v + body.w.cross(arm)) + w.couple.dot(body.w);
 }
 
-// What the force on a body changes by when the body turns.
+// The change of the force on a body as the body turns.
 Planar::Mat turning_tangent(const AppliedData& force, const PlanarWrench& w, const Planar::Motion& body) {
   const Planar::Point arm = body.turned(force.at.p);
   Planar::Mat dq = Planar::Mat::Zero();
   if (force.body_axes) {
-    dq.block<2, 1>(0, 2) = Planar::perp(w.force);  // the moment stays: arm and force turn together
+    dq.block<2, 1>(0, 2) = Planar::perp(w.force);  // the moment does not change: arm and force turn together
   } else {
     dq(2, 2) = -arm.dot(w.force);
   }

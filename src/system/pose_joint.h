@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// Motors have such gaps, too, and are not meant.
+/// Motors have such gaps too, but are excluded.
 inline bool is_pose_joint(const JointData& joint) { return joint.servo < 0 && std::holds_alternative<Selection>(joint.displacement); }
 
 }  // namespace pintle

@@ -1,5 +1,5 @@
-// Models that the tests of several rooms use: the pendulum and the four-bar of the paper's sections 7 and 8, and one with
-// everything that a model can hold.
+// Models shared by the tests of several directories: the pendulum and the four-bar of the paper's sections 7 and 8, and
+// one with everything that a model can contain.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace pintle::sample {
 
-/// An expression of the named variables, whatever their dimensions.
+/// An expression of the named variables, regardless of their dimensions.
 Expression expression(const std::string& text, const std::vector<std::string>& variables = {"t"});
 
 Joint joint(const std::string& name, const std::string& type, const MarkerRef& first, const MarkerRef& second, double k, double c);
@@ -22,7 +22,7 @@ Body body(const std::string& name, double mass, double inertia, const std::vecto
 
 void put_at(Body& b, double x, double y, double angle);
 
-/// A uniform rod of 1 m and 1 kg on a pin, horizontal at the start. Section 7; g along -y, the angle from the +x axis.
+/// A uniform rod of 1 m and 1 kg on a pin, initially horizontal. Section 7; g along -y, the angle from the +x axis.
 Model pendulum(double k, double c, double g = 9.81);
 
 /// Angles and their rates of the four-bar of section 8 with the crank at theta2, turning at 10 rad/s; B above the line A-O4.
@@ -49,7 +49,7 @@ Spring spring(const std::string& name, bool torsion, const MarkerRef& first, con
 Motor motor(const std::string& name, const std::string& of, MotorKind kind, Expression law);
 
 /// Six bodies with every joint type, springs, motors of every kind and applied forces; soft, for use at any state.
-/// `free`: nothing touches the ground, and there is no gravity nor applied force.
+/// `free`: nothing touches the ground, and there is neither gravity nor an applied force.
 Model everything(bool free = false);
 
 /// Marks the joints of these names as ideal.

@@ -11,10 +11,10 @@
 namespace pintle {
 namespace {
 
-constexpr int kPanels = 32;             // of a duration at least: of 200 pulses that last 1/300 of it all are seen; with 16, two in three
-constexpr std::size_t kMost = 200'000;  // panels, beyond which none is halved: 34 MB and 1.6 s for a speed that no polynomial follows
-constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of the whole way: what a panel may miss; with half of it 5000 turns of a sine take half as many panels
-                                                                          // again, and with twice as much 1 in 100 fewer
+constexpr int kPanels = 32;             // least number of panels on a duration: all of 200 pulses of 1/300 of it are seen; with 16, two in three
+constexpr std::size_t kMost = 200'000;  // with more panels than this none is halved: 34 MB and 1.6 s for a speed that no polynomial follows
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // error allowed in a panel, as a fraction of the whole distance; with half of it 5000 turns of a sine
+                                                                          // take half as many panels again, with twice as much 1 in 100 fewer
 
 // The sum of coefficients times Chebyshev polynomials at x in [-1, 1] (Clenshaw).
 template <std::size_t n>
@@ -46,7 +46,7 @@ double SpeedIntegral::integral_to(double t) const {
   return (after == panels_.begin() ? *after : *(after - 1)).integral_to(t);
 }
 
-// Of the speed, from its values at the extrema of the last polynomial.
+// Chebyshev coefficients of the speed, from its values at the extrema of the last polynomial.
 SpeedIntegral::Coefficients SpeedIntegral::chebyshev_coefficients(double begin, double end) const {
   constexpr int n = kPolynomialDegree;
   Coefficients value, out;
@@ -62,12 +62,12 @@ SpeedIntegral::Coefficients SpeedIntegral::chebyshev_coefficients(double begin, 
   return out;
 }
 
-// Halves what a polynomial does not resolve: a curve, a kink or jump, and the rounding of a long time's sine, until it matters no more.
+// Halves a panel that a polynomial does not resolve (a curve, a kink or jump, the rounding of a sine of large arguments) until the error is negligible.
 void SpeedIntegral::append_panels(double begin, double end, std::vector<Panel>& panels) const {
   const Coefficients c = chebyshev_coefficients(begin, end);
   const double rest = std::max({std::abs(c[kPolynomialDegree]), std::abs(c[kPolynomialDegree - 1]), std::abs(c[kPolynomialDegree - 2])});
   const double size = std::accumulate(c.begin(), c.end(), largest_, [](double sum, double x) { return sum + std::abs(x); });
-  const bool resolved = !(rest * (end - begin) > kRounding * size * duration_);  // also where the speed is not a number
+  const bool resolved = !(rest * (end - begin) > kRounding * size * duration_);  // true also where the speed is not a number
   const double middle = 0.5 * (begin + end);
   if (resolved || panels.size() > kMost || !(begin < middle && middle < end)) {
     panels.push_back(integrate_panel(begin, end, panels.empty() ? 0 : panels.back().integral_to(begin), c));

@@ -47,7 +47,7 @@ TEST(SpeedIntegral, GoesOnBeyondItsDuration) {
   expect_way("1 + sin(2 rad/s*t)", 0.5, 40, [](double t) { return t + 0.5 * (1 - std::cos(2 * t)); }, 1e-12);
 }
 
-// The rounding of large arguments is no curve that shorter panels resolve.
+// Shorter panels do not resolve the rounding of large arguments.
 TEST(SpeedIntegral, KeepsToThePanelsThatItNeeds) {
   EXPECT_EQ(SpeedIntegral(speed_of("2 + t/(1 s)"), 10).n_panels(), 32u);
   EXPECT_LT(SpeedIntegral(speed_of("sin(314 rad/s*t)"), 100).n_panels(), 40000u);  // 5000 turns

@@ -51,7 +51,7 @@ double energy_of_joints(const BasicSystem<S>& system, const BasicState<S>& state
   return stored;
 }
 
-// Coordinates and vectors of a body begin with its translations.
+// The coordinates and vectors of a body begin with its translations.
 template <class Vec>
 constexpr int kTranslations = Vec::SizeAtCompileTime == Planar::kDof ? Planar::kDim : Spatial::kDim;
 

@@ -47,7 +47,7 @@ void BasicSystem<S>::finish(const BasicSystem<S>* like) {
   list_switching();
 }
 
-// In the order in which evaluate_switching_functions fills their values.
+// In the order in which evaluate_switching_functions writes their values.
 template <class S>
 void BasicSystem<S>::list_switching() {
   switching_.clear();

@@ -1,4 +1,4 @@
-// The equations of motion of a mechanism with everything in it, at random states: tangents, balance, indifference to order.
+// The equations of motion of a mechanism with everything in it, at random states: tangents, balance, independence of order.
 #include "system/system.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ std::vector<S::Motion> motions(const System& system, const Vecs& q, const Vecs& 
   return m;
 }
 
-// A system in a random state, its joints settled there.
+// A system in a random state, with its open values set there.
 struct Instant {
   double t = 0.37;
   Vecs settled, q, v;
@@ -86,7 +86,7 @@ TEST(System, PatternHoldsEveryTangentBlock) {
     if (joint.at.a != kGround && joint.at.b != kGround) { EXPECT_TRUE(is_there(joint.at.a, joint.at.b)) << joint.name; }
 }
 
-// Energy that is stored: external loads, and the joints that are not servos.
+// Stored energy: external loads, and the joints that are not servos.
 double potential(const Instant& at, const Vecs& q) {
   const auto m = motions(at.system, q, at.v);
   double sum = at.system.external_work(at.t, q, m).potential;
@@ -97,7 +97,7 @@ double potential(const Instant& at, const Vecs& q) {
   return sum;
 }
 
-// d(kinetic + potential)/dt = supplied - lost, of servos all as supplied.
+// d(kinetic + potential)/dt = supplied - lost, where all power of servos counts as supplied.
 TEST(System, PowerIsBalanced) {
   Random random(7);
   const Model model = sample::everything();
@@ -133,7 +133,7 @@ TEST(System, KineticEnergyIsHalfTheMassTimesTheSquare) {
   EXPECT_DOUBLE_EQ(system.kinetic({{3, 4, 6}}), 0.5 * 25 + 0.5 * 36 / 12);
 }
 
-// Without ground, gravity and applied forces nothing changes the momentum, linear or about any point.
+// Without ground, gravity and applied forces the momentum is constant, linear and about any point.
 TEST(System, InternalForcesAndMomentsCancel) {
   Random random(8);
   const Model model = sample::everything(true);
@@ -201,7 +201,7 @@ TEST(System, PendulumOnItsReactionFallsAsOnAPin) {
   EXPECT_NEAR(a[0][2], -1.5 * g, 1e-5);
 }
 
-// A servo's gap is its coordinate less the target: rate and bias are the derivatives of that.
+// A servo's gap is its coordinate minus the target: rate and bias are the derivatives of that.
 TEST(System, ServoKinematicsFollowTheTarget) {
   Random random(10);
   const Instant at(sample::everything(), random);
@@ -261,7 +261,7 @@ TEST(System, AppliedForceInBodyAxesTurnsWithTheBody) {
   }
 }
 
-// The switching functions change their signs where a rope goes taut or an expression jumps, and nowhere else.
+// The switching functions change sign where a rope goes taut or an expression jumps, and nowhere else.
 TEST(System, SaysOnWhichSideOfItsKinksItIs) {
   Model model = sample::pendulum(1e6, 0);
   EXPECT_FALSE(build_system(model).has_branches());

@@ -1,4 +1,4 @@
-// Where what drives a component jumps, or its rate does: a motor that is switched to another speed, a position on straight lines.
+// Jumps of the target of a driven component, or of its rate: a motor switched to another speed, a piecewise linear position.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,17 @@
 
 namespace pintle {
 
-/// By how much a target changes at once.
+/// An instantaneous change of a target.
 struct TargetJump {
   int joint;
-  double t;               // the last time before it [s]
+  double t;               // the last time before the jump [s]
   double position, rate;  // [m or rad], [m/s or rad/s]; one of them may be 0
 };
 
-/// What the target of a driven joint does between two times next to each other, beyond what its rate and acceleration explain; none where that is nothing.
+/// The change of a driven joint's target between two adjacent times beyond what its rate and acceleration explain; none if that is zero.
 template <class S>
 std::optional<TargetJump> target_jump(const BasicSystem<S>& system, int j, double t0, double t1) {
-  constexpr double kJump = 1e-6;  // of the values on both sides: what is less is their rounding
+  constexpr double kJump = 1e-6;  // of the values on both sides: smaller changes are their rounding
   const BasicJointData<S>& joint = system.joints[static_cast<std::size_t>(j)];
   if (joint.driven < 0 || joint.target.n_switches() == 0) return std::nullopt;
   const double dt = t1 - t0;
@@ -36,7 +36,7 @@ std::optional<TargetJump> target_jump(const BasicSystem<S>& system, int j, doubl
   return found;
 }
 
-/// The first of all targets between the ends of a step. A joint whose target has several there shows one of them.
+/// The first jump of all targets within a step. For a joint whose target has several jumps there, only one of them is found.
 template <class S>
 std::optional<TargetJump> first_target_jump(const BasicSystem<S>& system, double t0, double t1) {
   std::optional<TargetJump> first;
@@ -48,7 +48,7 @@ std::optional<TargetJump> first_target_jump(const BasicSystem<S>& system, double
       const std::array<double, 1> time{t};
       joint.target.evaluate_switching_functions(std::span(time).first(joint.target.variables().size()), to.data(), nullptr);
     };
-    const auto is_beyond = [&](double t) {  // on the kink itself expressions have the derivatives behind it
+    const auto is_beyond = [&](double t) {  // on the kink itself, expressions have the derivatives of the far side
       evaluate_switching_functions(t, value);
       return !std::equal(begin.begin(), begin.end(), value.begin(), [](double a, double b) { return (a > 0) == (b > 0) && (a == 0 || b != 0); });
     };

@@ -1,4 +1,4 @@
-// Builds an expression's program; what does not vary is worked out at once.
+// Builds an expression's program; constant parts are evaluated at once.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ class ExpressionCode {
  public:
   void push_constant(double value);
   void push_variable(std::size_t index);
-  /// Applies `op` to the topmost operands; if none of them varies, they become one constant.
+  /// Applies `op` to the topmost operands; if none of them varies, they are replaced by one constant.
   void apply_op(Op op, bool varies);
-  /// The same with a table for the topmost one.
+  /// The same with a table applied to the topmost operand.
   void apply_table(std::shared_ptr<const TableFunction> table, bool varies);
 
-  /// The constant on top of the stack; 0 if a variable expression is there.
+  /// The constant on top of the stack; 0 if the top is a variable expression.
   double top_constant() const;
-  /// Did apply_op make something infinite or undefined of finite constants?
+  /// Whether apply_op has made something infinite or undefined out of finite constants.
   bool went_out_of_range() const { return went_out_of_range_; }
   bool overflows_stack() const { return deepest_ > kStackSize; }
   Expression::Program program() const { return {code_, tables_}; }

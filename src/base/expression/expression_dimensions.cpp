@@ -12,7 +12,7 @@ Operand joined(const Operand& a, const Operand& b, const Dimension& dimension, b
   return {dimension, is_number, a.varies || b.varies, 0, a.offset};
 }
 
-// Is this bare number a plain factor beside `other`, rather than a coefficient with units of its own?
+// Whether this bare number is a plain factor of `other`, rather than a coefficient with units of its own.
 bool is_plain_factor(const Operand& bare, const Operand& other) {
   return bare.is_number && !other.varies;
 }

@@ -1,7 +1,7 @@
-// Which dimensions may meet in an expression, and what comes out.
+// Which dimensions may be combined in an expression, and the dimension of the result.
 //
-// A bare number fits everything. As a factor, "2" in "2*crank" is just a number when the other side is a constant with
-// units; beside a variable, as in "0.1*rate", it is a coefficient in whatever units are needed.
+// A bare number fits everything. As a factor, "2" in "2*crank" is just a number if the other side is a constant with
+// units; with a variable, as in "0.1*rate", it is a coefficient in whatever units are needed.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace pintle {
 
-/// What is known of a part of an expression while it is parsed.
+/// What is known about a part of an expression while it is parsed.
 struct Operand {
   Dimension dimension;
-  bool is_number = false;  // bare by nature: a literal, or what functions of numbers give
+  bool is_number = false;  // bare by nature: a literal, or the result of a function of numbers
   bool varies = false;     // depends on a variable
   double constant = 0;     // its value, if it does not vary
   std::size_t offset = 0;  // where it starts in the text
 };
 
-/// Why two operands do not go together; at which of them is for the caller to say. Empty: they do.
+/// Why two operands cannot be combined; the caller decides at which of them to report it. Empty: they can.
 struct DimensionProblem {
   std::string found;
   std::string because;
@@ -34,10 +34,10 @@ struct CombinedOperand {
   DimensionProblem problem;
 };
 
-/// A number or an angle is wanted, as the argument of `name`; "" if it is one.
+/// Requires a number or an angle, as the argument of `name`; "" if it is one.
 DimensionProblem check_pure(const Operand& operand, const std::string& name);
 
-/// a + b, and everything else that wants two of a kind: `between` joins their names in the message.
+/// a + b, and everything else that requires two operands of one kind: `between` joins their names in the message.
 CombinedOperand alike(const Operand& a, const Operand& b, const std::string& between);
 CombinedOperand product_of(const Operand& a, const Operand& b);
 CombinedOperand quotient_of(const Operand& a, const Operand& b);

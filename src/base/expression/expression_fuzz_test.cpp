@@ -1,4 +1,4 @@
-// Random texts: whatever comes in, the parser answers, and what it accepts evaluates and differentiates quietly.
+// Random texts: the parser answers any input, and what it accepts evaluates and differentiates without trouble.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -57,7 +57,7 @@ std::string bytes_at_random(Dice& dice) {
   return text;
 }
 
-// An expression that is right in its grammar, if seldom in its units.
+// An expression with correct grammar, though seldom with correct units.
 std::string tree_at_random(Dice& dice, int depth) {
   constexpr std::array<const char*, 8> kLeaves{"1", "2.5 mm", "t", "x", "3", "a-b.angle", "crank", "0.5"};
   constexpr std::array<const char*, 8> kJoins{" + ", "-", "*", "/", "^", " < ", "*", " - "};

@@ -1,4 +1,4 @@
-// Expressions with one of their jumps held on a ramp.
+// Expressions with one of their jumps replaced by a ramp.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -18,7 +18,7 @@ T margin_of(std::span<const T> operands) {
   return operands.size() > 1 ? apply(Op::kSubtract, operands[0], operands[1]) : operands[0];
 }
 
-// What operation `op` gives on the low side of its jump (0) or on the high one (1).
+// The result of operation `op` on the low side of its jump (0) or on the high one (1).
 double on_side(Op op, int side) {
   const double margin = side == 0 ? -1 : 1;
   return arity(op) == 1 ? apply(op, margin) : apply(op, margin, 0.0);
@@ -37,7 +37,7 @@ double argument_at(const Expression::Program& program, std::size_t call, double 
 
 std::optional<std::vector<double>> Expression::kinks_of_table(std::size_t k, double low, double high, std::size_t most) const {
   if (!program_ || variables_.size() != 1) return {};
-  constexpr double kStraight = 1e-12;  // of the arguments: rounding
+  constexpr double kStraight = 1e-12;  // as a fraction of the arguments: deviation from linearity due to rounding
   std::size_t call = 0;
   for (std::size_t before = 0; call < program_->code.size(); before += static_cast<std::size_t>(program_->n_switches(program_->code[call++])))
     if (before == k && program_->n_switches(program_->code[call]) > 0) break;

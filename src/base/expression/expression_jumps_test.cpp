@@ -1,4 +1,4 @@
-// Jumps of expressions: found between points, and on ramps.
+// Jumps of expressions: found between points, and replaced by ramps.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -65,7 +65,7 @@ TEST(ExpressionJumps, SwitchingFunctionsTellWhereARampEnds) {
   EXPECT_NEAR(outside(1.6), 0.1, 1e-15);
 }
 
-// Every operation with a kink or a jump, on both sides of it and on it: the sign is that of the formula that holds.
+// Every operation with a kink or a jump, on both sides of it and on it: the sign is that of the formula that applies.
 TEST(ExpressionJumps, SwitchingFunctionsAreSignedDistances) {
   ParseScope scope;
   scope.variables = {{"x", kBareNumber}};

@@ -1,7 +1,7 @@
 // The operations of expression programs, and their values. Derivatives: jet.h.
 //
-// At kinks: abs, min and max have the derivatives behind the kink, where the variable is larger; step is 1 at 0; smoothstep is flat at
-// both ends; a comparison, step and sign have slope 0 everywhere. NaN goes through everything.
+// At kinks: abs, min and max have the derivatives of the side beyond the kink, where the variable is larger; step is 1 at 0;
+// smoothstep is flat at both ends; comparisons, step and sign have slope 0 everywhere. NaN propagates through everything.
 #pragma once
 
 #include <span>
@@ -83,12 +83,12 @@ struct FunctionInfo {
 std::span<const FunctionInfo> function_catalog();
 const FunctionInfo* find_function(std::string_view name);
 
-/// How many kinks or jumps an operation has inside its range.
+/// Number of kinks and jumps of an operation within its range.
 constexpr int n_switches(Op op) {
   if (op == Op::kSmoothstep) return 2;
   return op == Op::kAbs || op == Op::kSign || op == Op::kStep || (op >= Op::kMin && op <= Op::kGreaterEqual) ? 1 : 0;  // `if` follows its condition
 }
-/// A number for each of them that is positive on one side only: not at the kink itself where that belongs to the other side.
+/// One value for each of them that is positive on one side only: not at the kink itself if the kink belongs to the other side.
 void evaluate_switching_functions(Op op, std::span<const double> operands, double* value);
 
 inline double apply(const TableFunction& table, double a) { return table.value(a); }

@@ -16,7 +16,7 @@
 namespace pintle {
 namespace {
 
-// How strongly an operator holds what stands on its left and right.
+// How strongly an operator binds its left and right operand.
 struct Grip {
   int left;
   int right;
@@ -34,7 +34,7 @@ Grip grip_of(char symbol) {
     case '/':
       return {3, 4};
     case '^':
-      return {7, 6};  // to the right: 2^3^2 is 2^9
+      return {7, 6};  // right-associative: 2^3^2 is 2^9
     default:
       return {kComparisonGrip, 2};
   }
@@ -71,8 +71,7 @@ std::optional<double> built_in_constant(std::string_view word) {
 
 }  // namespace
 
-// Precedence climbing over the text; writes the program as it goes. A problem leaves it as a thrown ParseProblem,
-// which `parse` catches.
+// Precedence climbing over the text; writes the program as it goes. Problems are thrown as ParseProblem, which `parse` catches.
 class ExpressionParser {
  public:
   ExpressionParser(std::string_view text, const ParseScope& scope) : text_(text), scope_(scope) {}
@@ -109,7 +108,7 @@ class ExpressionParser {
     return result;
   }
 
-  // Operands joined by operators that grip at least as strongly as `least`.
+  // Operands joined by operators that bind at least as strongly as `least`.
   Operand parse_sum(int least) {
     if (++depth_ > kDeepestExpression)
       throw ParseProblem{at_, "", "the expression is nested too deeply",
@@ -161,7 +160,7 @@ class ExpressionParser {
     return result.operand;
   }
 
-  // Writes `op`; `at` is what to blame if constants give no finite number.
+  // Appends `op` to the program; `at` is the place to blame if constants do not give a finite number.
   Operand emit(Op op, Operand operand, std::size_t at) {
     code_.apply_op(op, operand.varies);
     if (code_.went_out_of_range())
@@ -215,7 +214,7 @@ class ExpressionParser {
     return operand;
   }
 
-  // The operand times the unit behind it, if there is one.
+  // The operand times the unit that follows it, if there is one.
   Operand with_unit(const Operand& operand) {
     skip();
     if (symbol_at(text_, at_).empty()) return operand;
@@ -235,7 +234,7 @@ class ExpressionParser {
     return std::find(scope_.constant_names.begin(), scope_.constant_names.end(), word) != scope_.constant_names.end();
   }
 
-  // Of a word that is the unit of its factor behind another one: N*m is no force times a mass m, but kg*h^2 may be a mass times a height.
+  // For a word that is a unit of this factor after another unit: in N*m it is not a force times a mass m, but kg*h^2 may be a mass times a height.
   bool could_be_meant(std::string_view word, const Unit& unit) const {
     if (!is_parameter(word)) return false;
     const std::optional<Quantity> parameter = scope_.constant ? scope_.constant(word) : std::nullopt;
@@ -243,7 +242,7 @@ class ExpressionParser {
     return !std::isnan(parameter->si) && (unit.factor != 1 || fits(parameter->dimension, unit.dimension));
   }
 
-  // A word right behind a number is a unit or a mistake.
+  // A word directly after a number is a unit or a mistake.
   void refuse_unknown_unit() {
     skip();
     const std::string_view word = symbol_at(text_, at_);
@@ -300,7 +299,7 @@ class ExpressionParser {
     return it == all.end() ? nullptr : &*it;
   }
 
-  // Length of the longest variable with a dot in its name that stands here; 0 if there is none.
+  // Length of the longest variable with a dot in its name at this place; 0 if there is none.
   std::size_t dotted_variable_length() const {
     std::size_t longest = 0;
     if (!is_word_part(text_[at_])) return 0;
@@ -365,7 +364,7 @@ class ExpressionParser {
     return {at, "", std::string(function.name) + " takes " + count, std::string(function.usage)};
   }
 
-  // What a function gives for these arguments; its rule says which may meet.
+  // The result of a function for these arguments; its rule determines which may be combined.
   Operand result_of(const FunctionInfo& function, const std::array<Operand, 3>& a, std::size_t start) const {
     const std::string name(function.name);
     Operand number{kBareNumber, true, a[0].varies || a[1].varies || a[2].varies, 0, start};

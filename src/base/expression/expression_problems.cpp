@@ -17,7 +17,7 @@ struct Alias {
   std::string_view unit;
 };
 
-// What people write for units that go by another symbol here.
+// Common spellings of units that have another symbol here.
 constexpr std::array<Alias, 20> kAliases{{
     {"sec", "s"},      {"second", "s"},    {"seconds", "s"},   {"hour", "h"},      {"hr", "h"},
     {"meter", "m"},    {"metre", "m"},     {"meters", "m"},    {"metres", "m"},    {"inch", "in"},
@@ -30,7 +30,7 @@ std::string in_quotes(std::string_view text) {
   return '"' + printable(text) + '"';
 }
 
-// What people write for functions that go by another name here.
+// Common spellings of functions that have another name here.
 constexpr std::array<Alias, 12> kFunctionAliases{{
     {"sinus", "sin"},
     {"cosinus", "cos"},
@@ -46,7 +46,7 @@ constexpr std::array<Alias, 12> kFunctionAliases{{
     {"squareroot", "sqrt"},
 }};
 
-// "Nm" -> "N*m", if both halves are units, and not of the same kind: "kgg" is a slip for "kg".
+// "Nm" -> "N*m", if both halves are units of different kinds: "kgg" is a slip for "kg".
 std::optional<std::string> split_unit(std::string_view word) {
   for (std::size_t i = 1; i < word.size(); ++i) {
     const std::optional<Unit> first = find_unit(word.substr(0, i));
@@ -57,7 +57,7 @@ std::optional<std::string> split_unit(std::string_view word) {
   return std::nullopt;
 }
 
-// What ends before `at` is a number or a unit of one.
+// Whether the text before `at` ends with a number or a unit of one.
 bool follows_number(std::string_view text, std::size_t at, const ParseScope& scope) {
   while (at > 0 && text[at - 1] == ' ') --at;
   std::size_t begin = at;
@@ -80,7 +80,7 @@ ParseProblem unexpected_comma(std::string_view text, std::size_t at) {
           between_digits ? "write decimals with a point" : "one expression for each value"};
 }
 
-// The first few names that may stand here.
+// The first few names that are possible here.
 std::string known_names(const ParseScope& scope) {
   constexpr std::size_t kShown = 8;
   std::vector<std::string> names;
@@ -138,7 +138,7 @@ ParseProblem no_operand(std::string_view text, std::size_t at) {
           is_double_star ? "^ for a power" : "a number, or delete what needs one"};
 }
 
-// Of a joint or motor: "rope.tension".
+// Whether the word names a force of a joint or motor: "rope.tension".
 bool asks_for_a_force(std::string_view word) {
   constexpr std::array<std::string_view, 7> kForces{"force", "tension", "friction", "torque", "moment", "fx", "fy"};
   const std::size_t dot = word.rfind('.');

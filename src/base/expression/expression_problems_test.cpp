@@ -88,7 +88,7 @@ TEST(ExpressionProblem, NamesAndUnits) {
   for (const Fault& fault : faults) expect_problem(fault);
 }
 
-// An edge's height is one of x: t would be the tonne there.
+// An edge's height is a function of x: t would be the tonne there.
 TEST(ExpressionProblem, TimeWhereOnlySomethingElseStands) {
   ParseScope scope;
   scope.variables = {{"x", kLength}};
@@ -148,7 +148,7 @@ TEST(ExpressionProblem, Limits) {
   expect_problem({nested("(", 300, "t", ")"), 200, "", "too deeply", ""});
   expect_problem({nested("-", 300, "t", ""), 200, "", "too deeply", ""});
   expect_problem({nested("2^", 300, "t", ""), 400, "", "too deeply", ""});
-  expect_problem({nested("max(t, ", 190, "t", ")"), 0, "", "too deeply", ""});  // too many operands wait
+  expect_problem({nested("max(t, ", 190, "t", ")"), 0, "", "too deeply", ""});  // too many operands on the stack
   expect_problem({std::string(5000, ' '), 0, "", "longer than", ""});
   EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("t + ", 900, "t", ""), length_scope())));
 }

@@ -12,7 +12,7 @@
 
 namespace pintle {
 
-/// The most operands that may wait at one time; the parser refuses more.
+/// Limit on operands on the stack at one time; the parser refuses more.
 inline constexpr std::size_t kStackSize = 128;
 
 struct Instruction {
@@ -22,10 +22,10 @@ struct Instruction {
 };
 
 struct Expression::Program {
-  std::vector<Instruction> code;  // leaves one value; never more than kStackSize of them on the way
+  std::vector<Instruction> code;  // leaves one value; never more than kStackSize of them in between
   std::vector<std::shared_ptr<const TableFunction>> tables{};
 
-  /// How many kinks and jumps an instruction has inside its range.
+  /// Number of kinks and jumps of an instruction within its range.
   int n_switches(const Instruction& step) const { return step.op == Op::kTable ? tables[step.index]->has_kinks() : pintle::n_switches(step.op); }
 };
 

@@ -9,8 +9,8 @@
 
 namespace pintle {
 
-/// Runs `program`. `constant` and `variable` make a T of a value and of a variable's index; `after(index, operands, result)`
-/// sees each operation and may change its result.
+/// Runs `program`. `constant` and `variable` make a T from a value and from a variable's index; `after(index, operands,
+/// result)` is called after each operation and may change its result.
 template <class T, class MakeConstant, class MakeVariable, class After>
 T run(const Expression::Program& program, const MakeConstant& constant, const MakeVariable& variable, const After& after) {
   std::array<T, kStackSize> stack;
@@ -31,14 +31,14 @@ T run(const Expression::Program& program, const MakeConstant& constant, const Ma
   return stack[0];
 }
 
-/// Numbers at `values`.
+/// Evaluates with numbers, at `values`.
 template <class After>
 double run_at(const Expression::Program& program, std::span<const double> values, const After& after) {
   return run<double>(
       program, [](double c) { return c; }, [&](std::uint32_t i) { return values[i]; }, after);
 }
 
-/// Along variable `index`, the others held.
+/// Evaluates with derivatives along variable `index`, the others held.
 template <class After>
 Jet run_along(const Expression::Program& program, std::span<const double> values, std::size_t index, const After& after) {
   return run<Jet>(

@@ -77,10 +77,10 @@ TEST(ExpressionTables, HaveExactDerivatives) {
   }
 }
 
-// One switching function for each call of a table with kinks, wherever it stands.
+// One switching function for each call of a table with kinks, wherever it occurs.
 TEST(ExpressionTables, SwitchAtTheirKinks) {
   const Expression e = expression_with_tables("abs(x) + pressure(2*x)/(1 Pa) + bare(x)");
-  ASSERT_EQ(e.n_switches(), 3);  // bare is held at its ends, where its slope jumps, and its curvature jumps at 1
+  ASSERT_EQ(e.n_switches(), 3);  // bare is held at its ends, where its slope jumps; its curvature jumps at 1
   const auto at = [&](double x) {
     std::array<double, 3> value;
     e.evaluate_switching_functions(std::array{x}, value.data());
@@ -103,7 +103,7 @@ void expect_places(const std::vector<double>& places, const std::vector<double>&
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(places[i], expected[i], 1e-12);
 }
 
-// However few parts are looked at; the parabola's sides of `step` lie in different parts, and those of a table of it are looked for alike.
+// Independent of the number of parts; the two sides of `step` of a parabola lie in different parts, and those of a table of it are found in the same way.
 TEST(ExpressionTables, SwitchingPointsAreFound) {
   const Expression straight = expression_with_tables("abs(x - 0.2) + pressure(2*x)/(1 Pa) + bare(x)");
   expect_places(switching_points(straight, 0.1, 4, 1, 100), {0.2, 0.5, 1, 2, 3, std::numbers::pi, std::numbers::pi + 0.5});

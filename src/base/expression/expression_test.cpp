@@ -214,7 +214,7 @@ TEST(ExpressionValue, QuantitiesAndBrokenConstants) {
   const auto quantity = parse_quantity("2*crank", crank_scope());
   EXPECT_DOUBLE_EQ(std::get<Quantity>(quantity).si, 0.2);
   EXPECT_TRUE(std::holds_alternative<ParseProblem>(parse_quantity("2*t", crank_scope())));
-  EXPECT_DOUBLE_EQ(std::get<Quantity>(parse_quantity("2 t")).si, 2000);  // tonnes where no t is a variable
+  EXPECT_DOUBLE_EQ(std::get<Quantity>(parse_quantity("2 t")).si, 2000);  // tonnes, if t is not a variable
   for (const char* text : {"broken + 1 m", "sqrt(broken)", "2 m^2*sin(broken)", "(2 m)^broken"}) {
     const auto broken = parse_quantity(text, crank_scope());
     ASSERT_TRUE(std::holds_alternative<Quantity>(broken)) << text;
@@ -236,7 +236,7 @@ TEST(ExpressionNames, AConstantMayHaveTheSymbolOfAUnit) {
   EXPECT_DOUBLE_EQ(value("2*h"), 1);
   EXPECT_DOUBLE_EQ(value("(3 kg)*h^2/12"), 0.0625);
   EXPECT_DOUBLE_EQ(value("h/2 + 1 m"), 1.25);
-  EXPECT_DOUBLE_EQ(value("4 kg*m^2"), 4);  // no mass times a mass
+  EXPECT_DOUBLE_EQ(value("4 kg*m^2"), 4);  // not a mass times a mass
   EXPECT_DOUBLE_EQ(value("(4 kg)*m"), 12);
   EXPECT_DOUBLE_EQ(value("2*s"), 4);
   EXPECT_TRUE(std::holds_alternative<ParseProblem>(parse_quantity("9.81 m/s^2", scope)));  // a number may be meant

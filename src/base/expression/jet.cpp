@@ -16,13 +16,13 @@ struct Slopes2 {
   double a, b, aa, ab, bb;
 };
 
-// The sign that a quantity has just behind the point where it stands.
+// The sign of a quantity just beyond the present point.
 double sign_behind(const Jet& a) {
   if (a.value != 0) return apply(Op::kSign, a.value);
   return apply(Op::kSign, a.first != 0 ? a.first : a.second);
 }
 
-// factor * derivative, zero where the derivative is.
+// factor * derivative; zero if the derivative is zero.
 double times(double factor, double derivative) {
   return derivative == 0 ? 0 : factor * derivative;
 }
@@ -74,12 +74,12 @@ Slopes1 slopes_of(Op op, double x, double f) {
   }
 }
 
-// n x^m, zero where n is.
+// n x^m; zero if n is zero.
 double scaled_power(double n, double x, double m) {
   return n == 0 ? 0 : n * std::pow(x, m);
 }
 
-// d/db a^b = a^b log a; where the power vanishes, so do its derivatives along b.
+// d/db a^b = a^b log a; if the power is zero, so are its derivatives by b.
 Slopes2 power_slopes(double a, double b, double f) {
   const double log_a = f == 0 ? 0 : std::log(a);
   const double slope = scaled_power(b, a, b - 1);

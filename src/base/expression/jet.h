@@ -1,7 +1,7 @@
 // A value with its first and second derivative along one variable, and exact arithmetic on it.
 //
-// A derivative of zero stays zero whatever it is multiplied with, so that a function's infinite slope does not spoil
-// what does not vary. At a kink the derivatives are those of the side on which the variable grows; see expression_ops.h.
+// A zero derivative stays zero whatever it is multiplied by, so that a function's infinite slope does not spoil constant
+// operands. At a kink the derivatives are those of the side of increasing variable; see expression_ops.h.
 #pragma once
 
 #include "base/expression/expression_ops.h"

@@ -26,13 +26,13 @@ double slope_at_end(double h0, double h1, double secant0, double secant1) {
   return slope * secant0 > 0 ? slope : 0;
 }
 
-// That of the parabola through a point and its neighbours, between pieces a and b; 0 where the points turn. theory/tables Eq. (2.2)
+// Slope of the parabola through a point and its neighbours, between pieces a and b; 0 where the points turn. theory/tables Eq. (2.2)
 double slope_between(const Pieces& p, std::size_t a, std::size_t b) {
   return p.secant[a] * p.secant[b] > 0 ? (p.h[b] * p.secant[a] + p.h[a] * p.secant[b]) / (p.h[a] + p.h[b]) : 0;
 }
 
-// Into the circle of radius 3 secants, inside which a piece is monotone (Fritsch and Carlson, section 4). Slopes only become smaller, so
-// that a piece stays inside when the next one changes the slope they share.
+// Limits the slopes to the circle of radius 3 secants, inside which a piece is monotone (Fritsch and Carlson, section 4). Slopes are
+// only reduced, so that a piece stays inside when the next one changes the slope they share.
 void limit_slopes(const Pieces& p, std::vector<double>& slope) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double size = std::hypot(slope[i], slope[i + 1]), most = 3 * std::abs(p.secant[i]);  // (2.3)
@@ -42,7 +42,7 @@ void limit_slopes(const Pieces& p, std::vector<double>& slope) {
   }
 }
 
-// The tridiagonal equations of a spline's slopes. Their diagonal dominates.
+// The tridiagonal equations for the slopes of a spline. They are diagonally dominant.
 struct SplineEquations {
   std::vector<double> below, diagonal, above, right;
   explicit SplineEquations(std::size_t n) : below(n), diagonal(n), above(n), right(n) {}
@@ -53,7 +53,7 @@ struct SplineEquations {
     diagonal[i] = 2 * (below[i] + above[i]);                           // (2.4)
     right[i] = 3 * (p.secant[a] * below[i] + p.secant[b] * above[i]);  // (2.4)
   }
-  // By Gauss.
+  // By Gaussian elimination.
   std::vector<double> solve(std::vector<double> x) const {
     const std::size_t n = x.size();
     std::vector<double> pivot = diagonal;
@@ -68,8 +68,8 @@ struct SplineEquations {
   }
 };
 
-// Continuity of the second derivative at every point of a closed curve: tridiagonal but for two corners, which the formula of Sherman and
-// Morrison takes back.
+// Continuity of the second derivative at every point of a closed curve: tridiagonal except for two corners, which the Sherman-Morrison
+// formula takes into account.
 std::vector<double> periodic_spline_slopes(const Pieces& p) {
   const std::size_t n = p.size();
   if (n == 1) return {0, 0};

@@ -1,5 +1,5 @@
 // A function of one variable through given points, by cubic pieces with given slopes at the points (Hermite form), and two ways to find
-// such slopes. Beyond the ends it is straight. theory/tables section 2
+// such slopes. Beyond the ends it is linear. theory/tables section 2
 #pragma once
 
 #include <cstddef>
@@ -7,35 +7,35 @@
 
 namespace pintle {
 
-/// What stands beyond the first and the last point when slopes are found.
+/// What continues the curve beyond the first and the last point when slopes are found.
 enum class CurveEnds {
   kFree,      // nothing
   kOdd,       // f(-x) = -f(x): the first point is (0, 0)
-  kPeriodic,  // the curve again: the last point is the first one of the next period
+  kPeriodic,  // the curve repeats: the last point is the first one of the next period
 };
 
 class CubicCurve {
  public:
   CubicCurve() = default;
-  /// At least two points, x strictly rising, as many values and slopes.
+  /// At least two points, x strictly increasing, with the same number of values and slopes.
   CubicCurve(std::vector<double> x, std::vector<double> y, std::vector<double> slope);
 
   double value(double x) const;
   double slope(double x) const;
-  double curvature(double x) const;  ///< the second derivative; at a point that of the piece behind it
-  /// From the first point to x, of the pieces themselves: no quadrature.
+  double curvature(double x) const;  ///< the second derivative; at a point, that of the piece after it
+  /// From the first point to x, exact for the pieces: no quadrature.
   double integral(double x) const;
 
   const std::vector<double>& x() const { return x_; }
   const std::vector<double>& y() const { return y_; }
-  /// Which piece stands at x; beyond the ends the first or the last one.
+  /// The piece that contains x; beyond the ends the first or the last one.
   std::size_t piece_at(double x) const;
 
  private:
-  std::vector<double> x_, y_, slope_, integral_;  // at the points; integral from the first of them
+  std::vector<double> x_, y_, slope_, integral_;  // at the points; integral from the first point
 };
 
-/// Slopes with which the curve rises and falls only where the points do, and its own slope is continuous. F. N. Fritsch and R. E. Carlson,
+/// Slopes with which the curve rises and falls only where the points do, and its slope is continuous. F. N. Fritsch and R. E. Carlson,
 /// Monotone piecewise cubic interpolation, SIAM J. Numerical Analysis 17 (1980) 238-246.
 std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y, CurveEnds ends);
 

@@ -1,5 +1,5 @@
 // A function of one variable through given points, by cubic pieces that rise and fall only where the points do (base/tables/cubic_curve.h). The
-// function and its slope are continuous, the curvature jumps at the points. Beyond the ends it is straight.
+// function and its slope are continuous, the curvature jumps at the points. Beyond the ends it is linear.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,16 @@ namespace pintle {
 
 class MonotoneTable {
  public:
-  /// Whether f(-x) = -f(x) completes a table that begins at x = 0, f = 0.
+  /// Whether a table that begins at x = 0, f = 0 is extended by f(-x) = -f(x).
   enum class Symmetry { kNone, kOdd };
 
   MonotoneTable() = default;
-  /// At least two points, x strictly rising. Throws std::invalid_argument where that is not so, or an odd table does not begin at (0, 0).
+  /// At least two points, x strictly increasing. Throws std::invalid_argument if this is violated, or if an odd table does not begin at (0, 0).
   MonotoneTable(std::vector<double> x, std::vector<double> y, Symmetry symmetry = Symmetry::kNone);
 
   double value(double x) const { return odd_ && x < 0 ? -curve_.value(-x) : curve_.value(x); }
   double slope(double x) const { return curve_.slope(odd_ && x < 0 ? -x : x); }
-  /// From 0 to x, of the pieces themselves: no quadrature.
+  /// From 0 to x, exact for the pieces: no quadrature.
   double integral(double x) const { return curve_.integral(odd_ && x < 0 ? -x : x) - integral_at_zero_; }
   /// The largest slope of the straight lines between neighbouring points.
   double steepest_secant() const;

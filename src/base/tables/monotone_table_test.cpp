@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-// Three-point slopes make a parabola of points on a parabola: 1 + 2 x + 3 x^2, its slope and its integral.
+// Three-point slopes turn points on a parabola into that parabola: 1 + 2 x + 3 x^2, its slope and its integral.
 TEST(MonotoneTable, IsTheParabolaThatItsPointsLieOn) {
   const auto f = [](double x) { return 1 + 2 * x + 3 * x * x; };
   const std::vector<double> x{0.5, 1, 1.2, 2, 3.5};
@@ -36,7 +36,7 @@ TEST(MonotoneTable, IsStraightBeyondItsEndsAndCountsItsIntegralFromZero) {
   EXPECT_DOUBLE_EQ(table.integral(-3), -6 * 3 + 2 * 3 * 3);
 }
 
-// Fritsch and Carlson's own data (their set RPN 14): a cubic spline overshoots it, this does not.
+// Fritsch and Carlson's own data (their set RPN 14): a cubic spline overshoots, this curve does not.
 TEST(MonotoneTable, NeverOvershoots) {
   const std::vector<double> x{7.99, 8.09, 8.19, 8.7, 9.2, 10, 12, 15, 20};
   const std::vector<double> y{0, 2.76429e-5, 4.37498e-2, 0.169183, 0.469428, 0.943740, 0.998636, 0.999919, 0.999994};

@@ -41,9 +41,9 @@ double TableFunction::secant(std::size_t piece) const {
   return (y[piece + 1] - y[piece]) / (x[piece + 1] - x[piece]);
 }
 
-// Whether the curvature jumps there by so much that a step over it misses a part of the table's range: |jump| h^2/8, with the shorter piece.
+// Whether the curvature jumps there by so much that a step across it misses the curve by a share of the table's range: |jump| h^2/8, with the shorter piece.
 bool TableFunction::bends_at(std::size_t left, std::size_t right) const {
-  constexpr double kBend = 1e-2;  // of the range. With four points a run to 1e-5 takes 64 steps where they end there, and 1387 where they do not; with 400 on five waves of a sine 1417 and 827: 0.4 and 1.4e-3 of the range
+  constexpr double kBend = 1e-2;  // as a fraction of the range. With four points a run to 1e-5 takes 64 steps if steps end there, and 1387 if they do not; with 400 on five waves of a sine 1417 and 827: 0.4 and 1.4e-3 of the range
   const auto [least, most] = std::minmax_element(curve_.y().begin(), curve_.y().end());
   const auto width = [this](std::size_t piece) { return curve_.x()[piece + 1] - curve_.x()[piece]; };
   const auto slope = [this](std::size_t point) { return curve_.slope(curve_.x()[point]); };

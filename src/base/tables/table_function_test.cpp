@@ -17,7 +17,7 @@ using enum TableOutside;
 
 constexpr TableInterpolation kAll[] = {kLinear, kMonotone, kSpline};
 
-// A wave with the period 2 pi, known at n places of different widths, from x = -1 on.
+// A wave with period 2 pi, known at n places with different spacings, starting at x = -1.
 double exact_wave(double x) { return std::sin(x) + 0.3 * std::cos(2 * x); }
 std::vector<double> places(int n, bool closed) {
   std::vector<double> x;
@@ -55,7 +55,7 @@ TEST(TableFunction, GoesStraightBetweenPoints) {
   EXPECT_DOUBLE_EQ(f.at(2).second, 0);
 }
 
-// Differences of fourth order, exact for cubics, inside the pieces.
+// Fourth-order differences, exact for cubics, inside the pieces.
 void expect_derivatives(const TableFunction& f, const std::vector<double>& points, double period) {
   sample::Random random(7);
   const double h = 1e-3;
@@ -94,7 +94,7 @@ TEST(TableFunction, RepeatsItself) {
     }
 }
 
-// A periodic table of three points and one that stands for the same points twice are the same function.
+// A periodic table of three points and one that lists the same points twice are the same function.
 TEST(TableFunction, DoesNotDependOnWhereThePeriodBegins) {
   for (const auto interpolation : kAll) {
     const TableFunction one({0, 1, 2.5}, {1, 4, 2}, interpolation, kHold, 4), later({1, 2.5, 4, 5}, {4, 2, 1, 4}, interpolation, kHold, 4),
@@ -106,7 +106,7 @@ TEST(TableFunction, DoesNotDependOnWhereThePeriodBegins) {
   }
 }
 
-// Halving the widths: the second order of straight lines, the fourth of splines.
+// When the spacings are halved: order two for straight lines, order four for splines.
 TEST(TableFunction, ConvergesToASmoothFunction) {
   EXPECT_NEAR(std::log2(most_off(40, kLinear) / most_off(80, kLinear)), 2, 0.1);
   EXPECT_NEAR(std::log2(most_off(40, kSpline) / most_off(80, kSpline)), 4, 0.2);
@@ -132,7 +132,7 @@ TEST(TableFunction, IsHeldOrGoesOnBeyondItsEnds) {
   EXPECT_DOUBLE_EQ(on.at(5).first, -3);
 }
 
-// At each kink, and nowhere else, the switching function changes its sign, and does not turn there.
+// At each kink, and nowhere else, the switching function changes sign, and it has no extremum there.
 void expect_sign_changes(const TableFunction& f, const std::vector<double>& kinks, double from, double to) {
   ASSERT_TRUE(f.has_kinks());
   std::vector<double> found;
@@ -150,15 +150,15 @@ void expect_sign_changes(const TableFunction& f, const std::vector<double>& kink
 
 TEST(TableFunction, SwitchesAtItsKinks) {
   const std::vector<double> x{0, 1, 1.5, 3}, y{0, 2, 3, 1};
-  expect_sign_changes({x, y, kLinear, kHold}, {0, 1.5, 3}, -0.9995, 5);  // at 1 it goes straight on
+  expect_sign_changes({x, y, kLinear, kHold}, {0, 1.5, 3}, -0.9995, 5);  // at 1 it continues straight
   expect_sign_changes({x, y, kLinear, kExtend}, {1.5}, -0.9995, 5);
   expect_sign_changes({x, y, kMonotone, kHold}, {0, 1, 1.5, 3}, -0.9995, 5);
   expect_sign_changes({x, y, kMonotone, kExtend}, {1, 1.5}, -0.9995, 5);
-  expect_sign_changes({{0, 1, 2, 3, 4}, {0, 1, 2.02, 3.02, 0}, kMonotone, kExtend}, {2, 3}, -0.9995, 5);  // the curvature jumps at all inner points, at 1 by little
+  expect_sign_changes({{0, 1, 2, 3, 4}, {0, 1, 2.02, 3.02, 0}, kMonotone, kExtend}, {2, 3}, -0.9995, 5);  // the curvature jumps at all inner points, at 1 only by little
   EXPECT_FALSE(TableFunction({0, 1, 2}, {3, 3, 3}, kLinear).has_kinks());
 }
 
-// An odd number of kinks in a period: the sign at the same place of two periods differs.
+// An odd number of kinks in a period: the signs at the same place of two successive periods differ.
 TEST(TableFunction, SwitchesAtItsKinksInEveryPeriod) {
   const TableFunction odd({0, 1, 2.5}, {0, 2, 7}, kLinear, kHold, 4), even({0, 1, 2, 3}, {0, 1, 4, 1}, kLinear, kHold, 4);
   expect_sign_changes(odd, {-4, -3, -1.5, 0, 1, 2.5, 4, 5, 6.5}, -4.9995, 7.9);

@@ -7,25 +7,25 @@
 
 namespace pintle {
 
-/// What is wrong with a table, and where. Thrown.
+/// What is wrong with a table, and where. Thrown as an exception.
 struct CsvFault {
   std::size_t line = 1, column = 1;
   std::string found, because;
 };
 
-/// Walks through the fields and knows where it is.
+/// Reads the fields in order and keeps track of its position.
 class CsvFields {
  public:
   explicit CsvFields(std::string_view text, char separator = ',') : rest_(text), separator_(separator) {}
 
   bool at_end() const { return rest_.empty(); }
-  /// The next field of this row; after the row's last one `row_done()` is true. Throws CsvFault.
+  /// The next field of this row; after the last field of the row `row_done()` is true. Throws CsvFault.
   std::string next();
   bool row_done() const { return row_done_; }
-  /// Where the field that next() gave begins, counted from 1.
+  /// Where the field returned by next() begins, counted from 1.
   std::size_t line() const { return field_line_; }
   std::size_t column() const { return field_column_; }
-  /// Throws a fault of that field.
+  /// Throws a fault at that field.
   [[noreturn]] void fail(std::string found, std::string because) const;
 
  private:

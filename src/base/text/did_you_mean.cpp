@@ -19,7 +19,7 @@ std::size_t largest_slip(std::size_t length) {
   return std::max<std::size_t>(1, length / 3);
 }
 
-// Ten times the distance without regard to case, plus one for a difference in case; a beginning, or the last of several words, counts as one slip.
+// Ten times the distance ignoring case, plus one if the first letters differ, if only in case; a prefix, or the last of several words, counts as one slip.
 std::optional<std::size_t> cost(std::string_view word, std::string_view candidate) {
   if (candidate.empty() || candidate.size() > kLongest) return std::nullopt;
   const std::string a = lower_case(word);

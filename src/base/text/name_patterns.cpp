@@ -4,7 +4,7 @@
 
 namespace pintle {
 
-// The last * met takes one letter more whenever the rest does not fit.
+// Whenever the rest does not match, the last * found takes one more letter.
 bool matches_pattern(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = std::string_view::npos, taken = 0;
   while (n < name.size()) {

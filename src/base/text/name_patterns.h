@@ -1,4 +1,4 @@
-// Names chosen by a list: each entry is a name, or has a * for any letters.
+// Names selected by a list: each entry is a name, or contains a * for any letters.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace pintle {
 
-/// Whether `name` is `pattern`, in which each * stands for any letters, or none.
+/// Whether `name` matches `pattern`, in which each * stands for any number of letters, including none.
 bool matches_pattern(std::string_view pattern, std::string_view name);
 
 class NamePatterns {
  public:
   explicit NamePatterns(const std::vector<std::string>& entries);
-  /// The number of entries with a * counts in the cost, that of the others does not.
+  /// The cost grows with the number of entries that contain a *, not with that of the others.
   bool match(const std::string& name) const;
 
  private:

@@ -9,7 +9,7 @@ TEST(NamePatterns, AStarStandsForAnyLettersOrNone) {
   EXPECT_TRUE(matches_pattern("joint.*", "joint.A"));
   EXPECT_TRUE(matches_pattern("joint.A*", "joint.A"));
   EXPECT_TRUE(matches_pattern("*.B*left", "joint.B1left"));
-  EXPECT_TRUE(matches_pattern("*a*ab", "aab"));  // the first * must give way
+  EXPECT_TRUE(matches_pattern("*a*ab", "aab"));  // the first * must match more letters
   EXPECT_TRUE(matches_pattern("**", ""));
   EXPECT_FALSE(matches_pattern("joint.*", "body.joint.A"));
   EXPECT_FALSE(matches_pattern("*.left", "joint.lefty"));

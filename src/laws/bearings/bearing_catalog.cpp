@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 1> kSlides{"prismatic"};
 constexpr std::array<std::string_view, 1> kPins{"revolute"};
 constexpr std::array<std::string_view, 2> kBushed{"revolute", "fixed"};
 
-// Defaults of stiffness and damping and their ranges: theory/bearings, section 1, from the paper's sections 4, 5, 7 and 8.
+// Default stiffness and damping and their ranges: theory/bearings, section 1, from the paper's sections 4, 5, 7 and 8.
 constexpr std::array<KeyInfo, 5> kGuideKeys{{
     {.key = "stiffness", .unit = "N/m", .fallback = 2e8, .minimum_exclusive = true, .meaning = "force per displacement across the guide; 1e8 to 30e8 N/m of rolling elements"},
     {.key = "damping", .unit = "N*s/m", .fallback = 3500, .meaning = "force per rate of it; 2e3 to 10e3 N*s/m of rolling elements"},
@@ -62,7 +62,7 @@ struct Elements {
   double count = 0;      // Z
   double stiffness = 0;  // K_1, radial load of one element = K_1 (radial deflection)^n [N/m^n]
   double exponent = 1;   // n
-  double share = 1;      // load of the most loaded over load of the bearing
+  double share = 1;      // load of the most loaded element over load of the bearing
 };
 
 // Palmgren and Harris, formulas in N and mm: theory/bearings Eqs. (2.1), (2.2).
@@ -152,7 +152,7 @@ void make_journal(const LawSetting& at, Law& law) {
     return;
   }
   using Flow = JournalFilmLaw::Flow;
-  constexpr std::array<Flow, 3> kFlows{Flow::kAxial, Flow::kAround, Flow::kBoth};  // of the words behind "linear"
+  constexpr std::array<Flow, 3> kFlows{Flow::kAxial, Flow::kAround, Flow::kBoth};  // for the words after "linear"
   law.add(std::make_unique<LawPartOf<JournalFilmLaw>>(JournalFilmLaw{at.number("journal_radius"), at.number("bearing_length"), at.number("radial_clearance"), at.number("viscosity"),
                                                                      at.number("roughness"), at.number("contact_stiffness"), kFlows.at(static_cast<std::size_t>(at.number("film")) - 1)}));
 }

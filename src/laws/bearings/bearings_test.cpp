@@ -65,7 +65,7 @@ TEST(LinearGuide, TurnsAgainstAnEvenLoadOverItsCarriage) {
   EXPECT_EQ(made("linear-guide", {{"angular_stiffness", {7}}}, "prismatic").as_linear()->k[2], 7);
 }
 
-// T. A. Harris, Rolling Bearing Analysis: d = 4.36e-4 Q^(2/3) / (D^(1/3) cos a) mm, Q = 5 F / (Z cos a); of lines 7.68e-5 Q^0.9 / l^0.8.
+// T. A. Harris, Rolling Bearing Analysis: d = 4.36e-4 Q^(2/3) / (D^(1/3) cos a) mm, Q = 5 F / (Z cos a); for line contact 7.68e-5 Q^0.9 / l^0.8.
 TEST(RollingBearing, GivesHarrisDeflections) {
   const double load = 2000, angle = 0.3, play = 15e-6;
   const double Q = 5 * load / (9 * std::cos(angle)), d = 1e-3 * 4.36e-4 * std::pow(Q, 2.0 / 3) / (std::cbrt(12.0) * std::cos(angle));
@@ -77,8 +77,8 @@ TEST(RollingBearing, GivesHarrisDeflections) {
   EXPECT_NEAR(force(rollers, {0, line, 0})[1], -load, 1e-12 * load);
 }
 
-// Many elements without play: the load of one at its place on the circle is K_1 (d cos)^n, whose mean over the circle is a Beta function; its inverse is
-// Stribeck's number, 4.37 of balls and 4.08 of rollers (Harris; R. Stribeck, Z. VDI 1901).
+// Many elements without play: the load of one at its place on the circle is K_1 (d cos)^n, whose mean over the circle is a Beta function. Its inverse is
+// Stribeck's number, 4.37 for balls and 4.08 for rollers (Harris; R. Stribeck, Z. VDI 1901).
 TEST(RollingBearing, TheSumOverManyElementsHasStribecksNumber) {
   for (const bool ball : {true, false}) {
     const double n = ball ? 1.5 : 10.0 / 9, e = 2e-5, play = 0;
@@ -94,7 +94,7 @@ TEST(RollingBearing, TheSumOverManyElementsHasStribecksNumber) {
   }
 }
 
-// Three elements or more, evenly preloaded: n Z K_1 d_0^(n-1) / 2 in every direction, with a load of each of K_1 d_0^n.
+// Three elements or more, evenly preloaded: stiffness n Z K_1 d_0^(n-1) / 2 in every direction; each carries K_1 d_0^n.
 TEST(RollingBearing, PreloadMakesItStiffWhereItIsCentred) {
   const double preload = 120;
   const Law bearing = made("rolling-bearing", {{"balls", {7}}, {"ball_diameter", {0.008}}, {"elements", {1}}, {"preload", {preload}}, {"cage_angle", {0.2}}});
@@ -120,7 +120,7 @@ TEST(RollingBearing, IsFreeInItsPlayAndNeverPulls) {
   };
   EXPECT_EQ(force(bearing, {1.9e-5, 0, 0}, {-3, 2, 5}), Vec(0, 0, 0));
   EXPECT_NEAR(force(bearing, {0, -2.5e-5, 0})[1], 500, 1e-9);                            // 1e8 * 5e-6
-  EXPECT_NEAR(force(bearing, {2.5e-5, 0, 0}, {0.01, 3, 0})[0], -600, 1e-9);              // and 1e4 * 0.01, none along the wall
+  EXPECT_NEAR(force(bearing, {2.5e-5, 0, 0}, {0.01, 3, 0})[0], -600, 1e-9);              // plus 1e4 * 0.01, nothing along the wall
   EXPECT_EQ(force(bearing, {2.5e-5, 0, 0}, {0.01, 3, 0})[1], 0);
   EXPECT_EQ(force(bearing, {2.5e-5, 0, 0}, {-0.06, 0, 0})[0], 0);                        // would pull
   EXPECT_LT(border({1.9e-5, 0, 0}, {1, 0, 0}), 0);
@@ -147,7 +147,7 @@ TEST(JournalBearing, HasOcvirksSommerfeldNumberAndAttitude) {
       EXPECT_NEAR(columns[1], kC * (1 - e), 1e-12 * kC);
       const double outward = f[0] * std::cos(turn) + f[1] * std::sin(turn), ahead = -f[0] * std::sin(turn) + f[1] * std::cos(turn);
       EXPECT_LT(outward, 0);
-      EXPECT_NEAR(ahead / -outward, kPi * std::sqrt(1 - e * e) / (4 * e), 1e-10 * ahead / -outward);  // carried on by the spin
+      EXPECT_NEAR(ahead / -outward, kPi * std::sqrt(1 - e * e) / (4 * e), 1e-10 * ahead / -outward);  // carried along by the spin
       EXPECT_NEAR(columns[3], -f[2] * kSpin, 1e-12 * columns[3]);
     }
 }
@@ -163,7 +163,7 @@ TEST(JournalBearing, ALongFilmHasSommerfeldsForces) {
   }
 }
 
-// A centred pin is squeezed with pi/2 mu R L^3 / c^3 against its motion, and turning alone does nothing (Petroff: a couple).
+// A centred pin is resisted with pi/2 mu R L^3 / c^3 against its motion, and rotation alone causes no force (only Petroff's couple).
 TEST(JournalBearing, IsRegularWhereThePinIsCentred) {
   const Law bearing = made("journal-bearing", oil(1));
   const double c = kPi / 2 * kMu * kR * kBushLength * kBushLength * kBushLength / (kC * kC * kC), petroff = 2 * kPi * kMu * kR * kR * kR * kBushLength / kC;
@@ -175,10 +175,10 @@ TEST(JournalBearing, IsRegularWhereThePinIsCentred) {
   const Eigen::Matrix2d damping = Eigen::Matrix2d::Identity() * c;
   EXPECT_TRUE((r.damping.topLeftCorner<2, 2>().isApprox(damping, 1e-12)));
   bearing.linearize({0, centred, centred, nullptr}, r);
-  EXPECT_TRUE((r.damping.topLeftCorner<2, 2>().isApprox(damping, 1e-12)));  // at rest: the mean of all directions
+  EXPECT_TRUE((r.damping.topLeftCorner<2, 2>().isApprox(damping, 1e-12)));  // at rest: the mean over all directions
 }
 
-// What is squeezed to and fro adds up to a film that does not cavitate: pi (1 + 2 e^2) / (1 - e^2)^(5/2) and pi / (1 - e^2)^(3/2).
+// The forces of squeezing to and fro add up to those of a film without cavitation: pi (1 + 2 e^2) / (1 - e^2)^(5/2) and pi / (1 - e^2)^(3/2).
 TEST(JournalBearing, HalfFilmsMakeAWholeOne) {
   const Law bearing = made("journal-bearing", oil(1));
   const double e = 0.6, size = kMu * kR * kBushLength * kBushLength * kBushLength / (kC * kC * kC), s = 1 - e * e;
@@ -190,7 +190,7 @@ TEST(JournalBearing, HalfFilmsMakeAWholeOne) {
   }
 }
 
-// Only relative motion matters: where the bush carries F and where the pin does, with any common turning.
+// Only relative motion matters: the bush may carry F or the pin may, with any common rotation.
 TEST(JournalBearing, DoesNotCareWhichBodyIsThePin) {
   for (const double film : {1.0, 2.0, 3.0}) {
     const Law bearing = made("journal-bearing", oil(film));
@@ -201,7 +201,7 @@ TEST(JournalBearing, DoesNotCareWhichBodyIsThePin) {
     const Eigen::Vector2d back = -(v + (wb - wp) * Eigen::Vector2d(-e[1], e[0]));
     const Vec on_bush = force(bearing, {-e[0], -e[1], 0}, {back[0], back[1], wb - wp});
     EXPECT_TRUE(on_bush.head<2>().isApprox(-on_pin.head<2>(), 1e-12));
-    // Moments about the bush: that on the pin about its centre, its force on the arm e, and that on the bush.
+    // Moments about the bush: that on the pin about its centre, that of its force at the arm e, and that on the bush.
     EXPECT_NEAR(on_pin[2] + (e[0] * on_pin[1] - e[1] * on_pin[0]) + on_bush[2], 0, 1e-12 * std::abs(on_pin[2]));
   }
 }
@@ -213,11 +213,11 @@ TEST(JournalBearing, SurfacesTouchWhereTheFilmIsAsThinAsTheyAreRough) {
   const Law bearing = made("journal-bearing", keys);
   EXPECT_EQ(force(bearing, {0, 37.9e-6, 0}), Vec(0, 0, 0));
   EXPECT_NEAR(force(bearing, {0, 40e-6, 0})[1], -200, 1e-9);  // 1e8 * 2e-6
-  EXPECT_NEAR(force(bearing, {0, 39e-6, 0}, {0, 0, kSpin})[0], force(bearing, {0, 38e-6, 0}, {0, 0, kSpin})[0], 1e-9);  // the film stays as it is
+  EXPECT_NEAR(force(bearing, {0, 39e-6, 0}, {0, 0, kSpin})[0], force(bearing, {0, 38e-6, 0}, {0, 0, kSpin})[0], 1e-9);  // the film keeps its thickness
 }
 
 // M. I. Friswell, J. E. T. Penny, S. D. Garvey, A. W. Lees, Dynamics of Rotating Machines, Cambridge 2010, section 5.5.1: stiffness and damping
-// of a short bearing under a load, u across it and v along it, in f/c and f/(c w).
+// of a loaded short bearing, u across the load and v along it, in units of f/c and f/(c w).
 struct Published {
   Eigen::Matrix2d K, C;
   explicit Published(double e) {
@@ -231,10 +231,10 @@ struct Published {
 };
 
 struct Whirl {
-  double mass_speed2 = 0, ratio = 0;  // m w^2 c/f at the threshold, and whirl over spin there
+  double mass_speed2 = 0, ratio = 0;  // m w^2 c/f at the threshold, and the ratio of whirl to spin there
 };
 
-// The threshold of a rigid rotor: m s^2 + C s + K has a root i r w.
+// The stability threshold of a rigid rotor: m s^2 + C s + K has a root i r w.
 Whirl threshold(const Eigen::Matrix2d& K, const Eigen::Matrix2d& C) {
   const double stiff = (K(0, 0) * C(1, 1) + K(1, 1) * C(0, 0) - K(0, 1) * C(1, 0) - K(1, 0) * C(0, 1)) / C.trace();
   const double ratio2 = ((K(0, 0) - stiff) * (K(1, 1) - stiff) - K(0, 1) * K(1, 0)) / C.determinant();
@@ -247,7 +247,7 @@ TEST(JournalBearing, TangentsAreThePublishedCoefficients) {
     const Vec gap(e * kC, 0, 0), rate(0, 0, kSpin), f = force(bearing, gap, rate);
     LawTangents r;
     bearing.linearize({0, gap, rate, nullptr}, r);
-    // v along the load, which the film carries by f; u so that the spin turns u into v.
+    // v along the load, which the film carries with f; u such that the spin turns u into v.
     const Eigen::Vector2d v = f.head<2>().normalized(), u(v[1], -v[0]);
     Eigen::Matrix2d axes;
     axes << u, v;
@@ -270,11 +270,11 @@ TEST(Table, FollowsItsPointsAndTheirEndSlopes) {
   EXPECT_TRUE(force(pin, {0.6e-4, -0.8e-4, 0}).isApprox(Vec(-60, 80, 0), 1e-12));
   EXPECT_TRUE(force(pin, Vec::Zero()).isZero());
   const Law rod = made("table", {{"displacement", {-1e-3, 1e-3}}, {"force", {-50, 10}}, {"damping", {3}}}, "prismatic");
-  EXPECT_NEAR(force(rod, {7, 2e-3, 0}, {1, 2, 0})[1], -(10 + 30) - 6, 1e-12);  // straight on, and the damper
+  EXPECT_NEAR(force(rod, {7, 2e-3, 0}, {1, 2, 0})[1], -(10 + 30) - 6, 1e-12);  // straight on beyond the end, plus the damper
   EXPECT_NEAR(rod.energy({0, Vec(0, 1e-3, 0), Vec::Zero(), nullptr}), -20 * 1e-3 + 0.5 * 3e4 * 1e-6, 1e-15);
 }
 
-// At its centre a bearing of balls has next to no stiffness, from which Newton's method would leap by metres.
+// At its centre a ball bearing has next to no stiffness, so that Newton's method would jump by metres.
 TEST(RollingBearing, TheGapAtAForceIsFoundFromNearTheCentre) {
   const Law law = made("rolling-bearing", {{"balls", {9}}, {"ball_diameter", {0.007}}});
   const Vec load(3, 19.6, 0);

@@ -1,4 +1,4 @@
-// The film of a bearing of finite length: against Reynolds' equation itself, against its two limits, and against the published chart.
+// The film of a bearing of finite length compared with Reynolds' equation itself, with its two limits, and with the published chart.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Law bearing(double slender, Flow flow) {
   return Law(law);
 }
 
-// Along and across a velocity that is at the angle `turn` to the eccentricity e (over the clearance), over mu R^3 L |u| / c^3.
+// Components along and across a velocity at the angle `turn` to the eccentricity e (over the clearance), in units of mu R^3 L |u| / c^3.
 struct Resistance {
   double along, across;
   double size() const { return std::hypot(along, across); }
@@ -42,8 +42,8 @@ Resistance of_law(double slender, Flow flow, double e, double turn) {
   return {-out.force[0] / size, -out.force[1] / size};
 }
 
-// Reynolds' equation (h^3 p')' + h^3 p_zz = -12 cos(psi) over the half film, in units of the radius and the clearance; p = 0 at its edges. A series of
-// cosines along the axis is exact; differences around, with their error of second order taken out. What the series leaves is the short film's.
+// Reynolds' equation (h^3 p')' + h^3 p_zz = -12 cos(psi) over the half film, in units of the radius and the clearance; p = 0 at its edges. A series of cosines along
+// the axis is exact; around it finite differences, with their second-order error extrapolated away. The remainder of the series is taken from the short film.
 Resistance reynolds(double slender, double e, double turn, int n) {
   const double ex = e * std::cos(turn), ey = -e * std::sin(turn), dx = kPi / n, length = 2 * slender;
   const auto cubed = [&](double psi) { return std::pow(1 - ex * std::cos(psi) - ey * std::sin(psi), 3); };
@@ -58,7 +58,7 @@ Resistance reynolds(double slender, double e, double turn, int n) {
     sum.along += dx * length * length * source[i] * source[i] / here[i];
     sum.across += dx * length * length * source[i] * std::sin(psi) / here[i];
   }
-  for (int k = 1; k < 60; k += 2) {  // cos(k pi z / L); its share of the source and of the force
+  for (int k = 1; k < 60; k += 2) {  // cos(k pi z / L); its contribution to the source and to the force
     const double wave = std::pow(k * kPi / length, 2), share = 12 * 8 / std::pow(k * kPi, 2);
     for (int i = 1; i < n; ++i) {
       const double pivot = diagonal[i] + wave * here[i] - (i > 1 ? below[i] * factor[i - 1] : 0);
@@ -82,13 +82,13 @@ Resistance reynolds(double slender, double e, double turn) {
 
 constexpr std::array<double, 6> kSlender{0.25, 0.5, 1, 2, 4, 8};
 
-// The equations above are those of the limits where they should be, and of the pin in the middle: 12 pi/2 (1 - tanh(L/D)/(L/D)).
+// The equations above reduce to the limits, and to the centred pin: 12 pi/2 (1 - tanh(L/D)/(L/D)).
 TEST(FiniteFilm, ReynoldsEquationHasBothLimits) {
   for (const double turn : {0.0, 1.0, 2.0}) {
     const Resistance narrow = reynolds(1e-3, 0.6, turn), shorter = of_law(1e-3, Flow::kAxial, 0.6, turn), longer = of_law(16, Flow::kAround, 0.6, turn);
     EXPECT_NEAR(narrow.along, shorter.along, 1e-5 * shorter.size());
     EXPECT_NEAR(narrow.across, shorter.across, 1e-5 * shorter.size());
-    const Resistance wide = reynolds(8, 0.6, turn), wider = reynolds(16, 0.6, turn);  // what the ends take is the same in both
+    const Resistance wide = reynolds(8, 0.6, turn), wider = reynolds(16, 0.6, turn);  // the effect of the ends is the same in both
     EXPECT_NEAR(2 * wider.along - wide.along, longer.along, 1e-3 * longer.size());
     EXPECT_NEAR(2 * wider.across - wide.across, longer.across, 1e-3 * longer.size());
   }
@@ -120,7 +120,7 @@ TEST(FiniteFilm, IsExactWhereThePinIsCentred) {
   }
 }
 
-// Whichever way oil may leave besides, it resists less.
+// With a second way out for the oil, the film resists less.
 TEST(FiniteFilm, ResistsLessThanBothOfItsLimits) {
   for (const double slender : kSlender)
     for (const double e : {0.01, 0.5, 0.95, 0.999})
@@ -133,8 +133,8 @@ TEST(FiniteFilm, ResistsLessThanBothOfItsLimits) {
       }
 }
 
-// Along its velocity the film never resists less than Reynolds' equation says, theory/bearings Eq. (3.7). How
-// close it comes, in parts of the force: squeezed, turning steadily, and where the pin leaves the thin film.
+// Along its velocity the film never resists less than Reynolds' equation says, theory/bearings Eq. (3.7). The
+// deviation, as a fraction of the force: squeezed, turning steadily, and where the pin leaves the thin film.
 TEST(FiniteFilm, IsCloseToReynoldsEquation) {
   struct Region {
     double least_turn, most_turn, most_e, allowed;
@@ -146,16 +146,16 @@ TEST(FiniteFilm, IsCloseToReynoldsEquation) {
         for (double turn = region.least_turn; turn <= region.most_turn && e <= region.most_e; turn += 15) {
           const Resistance exact = reynolds(slender, e, turn * kDegree), finite = of_law(slender, Flow::kBoth, e, turn * kDegree);
           const double along = (finite.along - exact.along) / exact.size(), across = (finite.across - exact.across) / exact.size();
-          EXPECT_GT(along, -1e-3) << slender << ' ' << e << ' ' << turn;  // of the differences
+          EXPECT_GT(along, -1e-3) << slender << ' ' << e << ' ' << turn;  // accuracy of the finite differences
           most = std::max(most, std::hypot(along, across));
         }
     EXPECT_LT(most, region.allowed);
-    EXPECT_GT(most, 0.8 * region.allowed);  // what the theory page states is neither less nor much more
+    EXPECT_GT(most, 0.8 * region.allowed);  // the figure on the theory page is neither too small nor much too large
   }
 }
 
-// A. A. Raimondi, J. Boyd, ASLE Transactions 1 (1958) 159-209, parts I to III: full bearings, Reynolds' condition at the end of the film. Sommerfeld's number of
-// the load at an eccentricity, and attitude in degrees.
+// A. A. Raimondi, J. Boyd, ASLE Transactions 1 (1958) 159-209, parts I to III: full bearings, Reynolds' condition at the end of the film. Sommerfeld number of
+// the load at an eccentricity, and attitude angle in degrees.
 TEST(FiniteFilm, CarriesTheLoadOfRaimondiAndBoydsChart) {
   struct Point {
     double slender, e, sommerfeld, attitude;

@@ -1,15 +1,15 @@
-// A journal bearing with an oil film that is thin against its radius and cavitates (Reynolds equation, half film after Gümbel): short, after
-// G. B. DuBois and F. W. Ocvirk (NACA Report 1157, 1953), long, after Sommerfeld, or of finite length, between both after P. C. Warner (J. Basic
-// Engineering 85 (1963) 247-255). All for any motion, by the one velocity that squeezes the film (J. F. Booker, Dynamically loaded journal
-// bearings: mobility method of solution, J. Basic Engineering 87 (1965) 537-546):
+// A journal bearing with an oil film that is thin compared with its radius and cavitates (Reynolds equation, half film after Gümbel): short,
+// after G. B. DuBois and F. W. Ocvirk (NACA Report 1157, 1953), long, after Sommerfeld, or of finite length, between the two, after P. C. Warner
+// (J. Basic Engineering 85 (1963) 247-255). All are valid for any motion, through the one velocity that squeezes the film (J. F. Booker,
+// Dynamically loaded journal bearings: mobility method of solution, J. Basic Engineering 87 (1965) 537-546):
 //
 //   u = e' - (w/2) z x e,      h = c - e.n                                        theory/bearings Eqs. (3.1), (3.2)
 //   F = -mu R L^3 int (u.n) n / h^3   over the half u.n > 0   (short)              Eq. (3.3)
 //   F_i = F_i,long G(3 F_i,short / F_i,long),  G(x) = 1 - tanh(sqrt x)/sqrt x   (finite)   Eq. (3.6)
 //   M = -2 pi mu w R^3 L / sqrt(c^2 - e^2) - (e x F)/2                             Eq. (3.9)
 //
-// F and M act on the second body, e is its place and w its spin against the first: either may carry the pin. Where the film would be
-// thinner than the roughness it stays as thick as that, and the surfaces touch: a spring takes over.
+// F and M act on the second body; e is its position and w its spin relative to the first. Either body may carry the pin. Where the
+// film would be thinner than the roughness, its thickness stays at the roughness, and the surfaces touch: a spring takes over.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct JournalFilmLaw {
   double roughness = 1e-6;         // 0 < roughness < clearance: the thinnest film [m]
   double contact_stiffness = 1e9;  // of the surfaces where they touch [N/m]
   enum class Flow { kAxial, kAround, kBoth };
-  Flow flow = Flow::kAxial;        // of the oil: along the axis (short), around the pin (long), or both ways
+  Flow flow = Flow::kAxial;        // of the oil: along the axis (short), around the pin (long), or both
 
   static JournalFilmLaw typical() { return {}; }
 
@@ -76,7 +76,7 @@ struct JournalFilmLaw {
     T r, force[2], moment, loss;
   };
 
-  // What the film of a given eccentricity, squeezed at u, has in common.
+  // Quantities common to all films with a given eccentricity, squeezed at u.
   template <class T>
   struct Squeeze {
     T e[2], u[2], speed, D;  // D^2 = c^2 - e^2
@@ -103,7 +103,7 @@ struct JournalFilmLaw {
     return film;
   }
 
-  // Where nothing squeezes, the tangent is the mean of those on all sides: half that of a film that does not cavitate.
+  // Without a squeeze velocity, the tangent is the mean over all directions: half that of a film without cavitation.
   template <class T>
   void half_film(const Squeeze<T>& at, T (&force)[2]) const {
     using namespace law_math;
@@ -118,19 +118,19 @@ struct JournalFilmLaw {
   double short_size() const { return viscosity * radius * length * length * length; }
   double long_size() const { return 12 * viscosity * radius * radius * radius * length; }
 
-  // Integrals of cos^a sin^b / h^3 over the half circle about `along`, theory/bearings Eq. (3.4); those with an odd power of the sine over B, the
-  // part of the eccentricity across `along`, with which they vanish.
+  // Integrals of cos^a sin^b / h^3 over the half circle about `along`, theory/bearings Eq. (3.4). Those with an odd power of the sine are divided
+  // by B, the part of the eccentricity across `along`, with which they vanish.
   template <class T>
   struct Integrals {
     T one, c, s, cc, sc, ss;
     T B;
   };
 
-  // What the flow makes of the short and of the long film's.
+  // Combines the values of the short and the long film according to the flow.
   template <class T>
   T of_flow(const T& in_short, const T& in_long) const { return flow == Flow::kAxial ? in_short : flow == Flow::kAround ? in_long : between(in_short, in_long); }
 
-  // Of a film that cavitates, along and across the velocity, over the speed.
+  // Resistance of a film with cavitation, along and across the velocity, per unit speed.
   template <class T>
   void half_film_resistance(const Integrals<T>& I, T (&resisted)[2]) const {
     using namespace law_math;
@@ -140,7 +140,7 @@ struct JournalFilmLaw {
     for (int k = 0; k < 2; ++k) resisted[k] = of_flow(shorts[k], longs[k]);
     resisted[1] = resisted[1] * I.B;
   }
-  // A film that does not cavitate, against u.
+  // Resistance of a film without cavitation, against u.
   template <class T>
   void whole_film(const Squeeze<T>& at, T (&resisted)[2]) const {
     using namespace law_math;
@@ -152,14 +152,14 @@ struct JournalFilmLaw {
     const T towards = where_positive(off, divide(more, e2), T(0.0));
     for (int k = 0; k < 2; ++k) resisted[k] = across * at.u[k] + (towards * eu) * at.e[k];
   }
-  static constexpr double kCentred = 1e-24;  // of clearance squared: no direction to the pin, and the same resistance in all
+  static constexpr double kCentred = 1e-24;  // as a fraction of the clearance squared: below it the pin has no direction, and the resistance is the same in all
 
-  // Between the force of a short film and that of a long one.
+  // Interpolates between the force of a short film and that of a long one.
   template <class T>
   static T between(const T& shorter, const T& longer) {
     return longer * law_math::through(3 * law_math::divide(shorter, longer), leakage, leakage_slope);      // (3.6)
   }
-  // G(x) = 1 - tanh(k)/k of x = k^2 > 0, and its derivative; for small x by Lambert's continued fraction of tanh, in which nothing cancels.
+  // G(x) = 1 - tanh(k)/k for x = k^2 > 0, and its derivative; for small x by Lambert's continued fraction of tanh, which is free of cancellation.
   static double leakage(double x) {
     if (x > 1) return 1 - std::tanh(std::sqrt(x)) / std::sqrt(x);
     double rest = 0;
@@ -171,7 +171,7 @@ struct JournalFilmLaw {
     return (x * (1 - G) * (1 - G) - G) / (2 * x);
   }
 
-  // By t = tan(psi/2), with which h (1 + t^2) = Q = A t^2 - 2 B t + C: N_k of t^k / Q^3 from -1 to 1. theory/bearings Eq. (3.13)
+  // By the substitution t = tan(psi/2), h (1 + t^2) = Q = A t^2 - 2 B t + C: N_k is the integral of t^k / Q^3 from -1 to 1. theory/bearings Eq. (3.13)
   template <class T>
   Integrals<T> integrals(const Squeeze<T>& at, const T (&along)[2]) const {
     using namespace law_math;
@@ -182,7 +182,7 @@ struct JournalFilmLaw {
     for (int k = 0; k < 5; ++k) N[k] = where_positive(-forward - at.D, away[k], towards[k]);
     return {2 * (N[0] + 2 * N[2] + N[4]), 2 * (N[0] - N[4]), 4 * (N[1] + N[3]), 2 * (N[0] - 2 * N[2] + N[4]), 4 * (N[1] - N[3]), 8 * N[2], B};
   }
-  // Reduced to the integrals I_k of t^k / Q^2 and J of 1/Q. N_1, N_3 and I_1 are over B.
+  // Reduced to the integrals I_k of t^k / Q^2 and J of 1/Q. N_1, N_3 and I_1 are divided by B.
   template <class T>
   void moments(const T& D, const T& forward, const T& B, T (&N)[5]) const {
     using namespace law_math;
@@ -196,7 +196,7 @@ struct JournalFilmLaw {
     N[3] = quarter * (each * (ends + T(0.5)) + 3 * I2);
     N[4] = quarter * (each * (clearance * ends - 0.5 * A) + 3 * (C * I2));
   }
-  // The same where the pin moves out of its eccentricity, E = -forward > 0: what cancels for small D is taken out. Eq. (3.14)
+  // The same where the pin moves away from its eccentricity, E = -forward > 0: the terms that cancel for small D are removed. Eq. (3.14)
   template <class T>
   void moments_away(const T& D, const T& E, const T& B, T (&N)[5]) const {
     using namespace law_math;
@@ -209,7 +209,7 @@ struct JournalFilmLaw {
     N[3] = 0.25 * (C * (tilted + 1.5 * bent) - inverse);
     N[4] = 0.25 * (C * (A * tilted + 1.5 * (C * bent) + divide(T(2.0), E2 * W)) + E * inverse);
   }
-  // (atan(x)/x - 1/(1 + z) - 2 z/3) / z^2 of z = x^2, and its derivative; by the power series where that would cancel.
+  // (atan(x)/x - 1/(1 + z) - 2 z/3) / z^2 for z = x^2, and its derivative; by the power series where this would cancel.
   static double arc_rest(double z) {
     if (z >= 0.25) return (std::atan(std::sqrt(z)) / std::sqrt(z) - 1 / (1 + z) - 2 * z / 3) / (z * z);
     double sum = 0, power = -1;

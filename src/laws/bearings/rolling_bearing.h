@@ -1,13 +1,13 @@
-// A rolling bearing by the approximate formulas of A. Palmgren, Ball and Roller Bearing Engineering, Burbank 1959, as T. A. Harris, Rolling
-// Bearing Analysis, Wiley, gives them (chapter on deflection): force against deflection with a power n, 3/2 of balls and 10/9 of rollers.
+// A rolling bearing by the approximate formulas of A. Palmgren, Ball and Roller Bearing Engineering, Burbank 1959, as given by T. A. Harris,
+// Rolling Bearing Analysis, Wiley (chapter on deflection): force proportional to a power n of the deflection, 3/2 for balls and 10/9 for rollers.
 //
 //   f = K d^n  against the deflection,   d = max(0, |e| - P/2)       of the bearing as a whole     theory/bearings Eq. (2.3)
 //   f = -sum over j of K_1 d_j^n n_j,    d_j = max(0, n_j.e + d_0 - P/2)   of each rolling element   Eq. (2.4)
 //   V = K d^(n+1) / (n+1)                                                                          Eq. (2.5)
 //
 // Damping acts where there is contact, along the deflection, and grows smoothly over the first `damping_depth` of it; a contact never
-// pulls. With no play at all, the bearing as a whole is damped alike in all directions. What is parting so fast that damping would pull
-// loses what is left of the elastic power.
+// pulls. Without play, the bearing as a whole is damped equally in all directions. Where surfaces part so fast that damping would pull,
+// the remaining elastic power is lost.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace pintle {
 
 struct RollingBearingLaw {
   static constexpr std::string_view kWord = "rolling-bearing";
-  double stiffness = 2e8;       // K of the whole, or K_1 of one element, > 0 [N/m^n]
+  double stiffness = 2e8;       // K of the bearing as a whole, or K_1 of one element, > 0 [N/m^n]
   double exponent = 1;          // n >= 1 [-]
-  double damping = 3500;        // of the whole, or of one element, >= 0 [N*s/m]
+  double damping = 3500;        // of the bearing as a whole, or of one element, >= 0 [N*s/m]
   double play = 0;              // P, diametral, >= 0 [m]
   double interference = 0;      // d_0, deflection of each element in a centred bearing, >= 0 [m]
   double damping_depth = 1e-6;  // > 0 [m]
@@ -104,7 +104,7 @@ struct RollingBearingLaw {
     T force, energy, loss;
   };
 
-  // One side that is deflected by d where that is positive, at the rate d'.
+  // One contact deflected by d, if that is positive, at the rate d'.
   template <class T>
   Contact<T> contact(const T& d, const T& rate) const {
     using namespace law_math;
@@ -119,7 +119,7 @@ struct RollingBearingLaw {
     const T s = (1 / damping_depth) * depth;
     return law_math::where_positive(T(1.0) - s, s * s * (T(3.0) - 2 * s), T(1.0));
   }
-  // Its sign is that of a contact's force, or of the deflection where there is none; of the size of a deflection.
+  // Same sign as a contact's force, or as the deflection where there is no contact; its magnitude is that of a deflection.
   double pressing(double d, double rate) const {
     if (d <= 0) return d;
     return std::min(d, d + damping * grown(d) * rate / (stiffness * std::pow(d, exponent - 1)));

@@ -1,9 +1,9 @@
-// A force that is measured: a table of force against displacement, by cubic pieces that rise as the points do (base/tables/monotone_table.h).
+// A measured force: a table of force against displacement, by cubic pieces that rise as the points do (base/tables/monotone_table.h).
 //
-//   f = -F(e)  of a joint that holds one length;   f = -F(|e|) e/|e|  of a pin         theory/bearings Eq. (4.1)
+//   f = -F(e)  for a joint that holds one length;  f = -F(|e|) e/|e|  for a pin        theory/bearings Eq. (4.1)
 //   V = integral of F from 0 to e                                                      Eq. (4.2)
 //
-// At e = 0 a pin's tangent is the table's slope there, in every direction. What is lost, the damper beside it loses.
+// At e = 0 a pin's tangent is the table's slope there, in every direction. The table loses no power; the damper in parallel does.
 #pragma once
 
 #include <string_view>
@@ -18,8 +18,8 @@ namespace pintle {
 struct TableLaw {
   static constexpr std::string_view kWord = "table";
   MonotoneTable table;  // [m] -> [N], force not falling
-  bool radial = false;  // a pin: the table begins at (0, 0)
-  int along = 0;        // else the component that it acts in
+  bool radial = false;  // for a pin: the table begins at (0, 0)
+  int along = 0;        // otherwise the component in which it acts
 
   static TableLaw typical() {
     return {MonotoneTable({0, 1e-6, 1e-5, 1e-4, 1e-3}, {0, 2, 70, 900, 1e3}, MonotoneTable::Symmetry::kOdd), true, 0};
@@ -54,7 +54,7 @@ struct TableLaw {
   T energy_of(const T& e) const {
     return law_math::through(e, [this](double x) { return table.integral(x); }, [this](double x) { return table.value(x); });
   }
-  // A table may begin flat; what holds the joint is where it rises.
+  // A table may begin flat; the joint is held where the table rises.
   double steepest() const { return table.steepest_secant(); }
 };
 

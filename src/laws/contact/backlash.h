@@ -1,8 +1,8 @@
-// A mesh with play between its flanks: two stops of the slip of its pitch circles.
+// A mesh with play between its flanks: two stops for the slip of its pitch circles.
 //
 //   front flank: d = g - j/2,  f = -N        rear flank: d = -g - j/2,  f = +N        theory/contact Eqs. (7.1), (6.2)
 //
-// g is the gap of the mesh, theory/joints Eqs. (2.12), (2.13), and j the circumferential play. In between the gears are apart.
+// g is the gap of the mesh, theory/joints Eqs. (2.12), (2.13), and j the circumferential play. Between the stops the teeth are apart.
 #pragma once
 
 #include <algorithm>

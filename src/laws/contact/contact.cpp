@@ -8,7 +8,7 @@ namespace {
 // ln((1 + h) / (1 - h e)) - h (1 + e), which grows with e and with h; h e < 1.
 double missing(double h, double e) { return std::log1p(h) - std::log1p(-h * e) - h * (1 + e); }
 
-// The root of a function that has one between low and high and changes its sign there from minus to plus.
+// The root of a function that changes sign once between low and high, from minus to plus.
 template <class F>
 double root(double low, double high, const F& f) {
   double middle = 0.5 * (low + high);

@@ -3,10 +3,10 @@
 //   N = K d^n (1 + g d') + c d'          theory/contact Eq. (1.1)
 //   V = K d^(n+1) / (n+1)                Eq. (1.2)
 //   g = h / v                            Eq. (1.3)
-//   c = c_0 (3 x^2 - 2 x^3),  x = min(1, d/L)                  Eq. (1.4), where the damping grows over a cushion's length L; else c = c_0
+//   c = c_0 (3 x^2 - 2 x^3),  x = min(1, d/L)                  Eq. (1.4), if the damping grows over a cushion's length L; else c = c_0
 //
-// v is the approach speed: d' at the touch, kept for as long as they touch, and at least the floor. A state of the law, 0 while they are apart.
-// Where N < 0 the bodies would attract each other: N = 0 instead, and the elastic power left is lost, unless attraction is wanted.
+// v is the approach speed: d' at the touch, but at least the floor, kept for as long as the bodies touch. It is a state of the law, 0 while they
+// are apart. Where N < 0 the bodies would attract each other: N = 0 instead, and the remaining elastic power is lost, unless attraction is wanted.
 #pragma once
 
 #include <algorithm>
@@ -18,17 +18,17 @@
 
 namespace pintle {
 
-/// The coefficient of restitution e of a free impact with N = K d^n (1 + h d'/v), whatever K, n, mass and speed: the root of
-/// h (1 + e) = ln((1 + h) / (1 - h e)). theory/contact Eq. (2.3). For h >= 0 [-].
+/// The coefficient of restitution e of a free impact with N = K d^n (1 + h d'/v), independent of K, n, mass and speed: the
+/// root of h (1 + e) = ln((1 + h) / (1 - h e)). theory/contact Eq. (2.3). For h >= 0 [-].
 double restitution_of(double hysteresis);
 
-/// How the published laws choose h from the restitution asked for; kExact is the inverse of restitution_of.
+/// The published formulas for h from the desired restitution; kExact is the inverse of restitution_of.
 enum class ContactModel { kExact, kLankaraniNikravesh, kHuntCrossley, kFlores, kGonthier, kViscous };
-/// h of a model for a restitution 0 < e <= 1; kViscous has none. theory/contact Eqs. (2.4)-(2.7).
+/// h according to a model for a restitution 0 < e <= 1; kViscous has none. theory/contact Eqs. (2.4)-(2.7).
 double hysteresis_of(ContactModel model, double restitution);
 
-/// K of Hertz' contact of a cylinder's end or sphere of radius R_j in a hollow of radius R_b > R_j, or on a flat (infinite R_b), of one material
-/// [N/m^1.5]: 4/3 E/(2 (1 - nu^2)) sqrt(R_j R_b/(R_b - R_j)). As H. M. Lankarani and P. E. Nikravesh use it, ASME J. Mech. Des. 112 (1990) 369-376.
+/// K of Hertz' contact of a cylinder's end or sphere of radius R_j in a concave surface of radius R_b > R_j, or on a flat one (infinite R_b), of the same
+/// material [N/m^1.5]: 4/3 E/(2 (1 - nu^2)) sqrt(R_j R_b/(R_b - R_j)). As used by H. M. Lankarani and P. E. Nikravesh, ASME J. Mech. Des. 112 (1990) 369-376.
 double hertz_stiffness(double modulus, double poisson, double journal, double bearing);
 
 struct ContactForce {
@@ -37,13 +37,13 @@ struct ContactForce {
   double stiffness = 1e10;     // K [N/m^n]
   double exponent = 1.5;       // n [-]
   double hysteresis = 0;       // h [-]
-  double fixed_damping = 0;    // g, where it does not depend on the approach speed [s/m]
+  double fixed_damping = 0;    // g, if it does not depend on the approach speed [s/m]
   double viscous = 0;          // c_0 [N*s/m]
-  double cushion = 0;          // L; 0: all of c_0 acts from the touch on [m]
+  double cushion = 0;          // L; 0: all of c_0 acts from the touch [m]
   double least_approach = 1e-3;  // floor of v [m/s]
   bool attracts = false;
 
-  /// g of a contact that began with this approach speed.
+  /// g for a contact that began with this approach speed.
   template <class T>
   T damping(const T& approach) const {
     return T(fixed_damping) + law_math::divide(T(hysteresis), law_math::where_positive(approach - T(least_approach), approach, T(least_approach)));
@@ -55,7 +55,7 @@ struct ContactForce {
     const T share = (1 / cushion) * depth, x = law_math::where_positive(share - T(1.0), T(1.0), share);
     return viscous * (x * x * (T(3.0) - 2.0 * x));                                                              // (1.4)
   }
-  /// d where N presses at rest.
+  /// d at which N has this value at rest.
   double depth_at(double pressing) const { return std::pow(pressing / stiffness, 1 / exponent); }
   /// N for d > 0.
   template <class T>
@@ -68,14 +68,14 @@ struct ContactForce {
   T elastic_force(const T& depth) const { return stiffness * law_math::pow(depth, exponent); }
   template <class T>
   T energy(const T& depth) const { return (stiffness / (exponent + 1)) * law_math::pow(depth, exponent + 1); }
-  /// Positive where the force is.
+  /// Positive where the force is positive.
   double pressing(double depth, double rate, double approach) const {
     if (attracts) return 1;
     if (cushion > 0) return depth > 0 ? 1 + viscous_at(depth) / elastic_force(depth) * rate : 1;
-    if (viscous > 0) return depth + (viscous / stiffness) * rate;  // such contacts have n = 1 and no h
+    if (viscous > 0) return depth + (viscous / stiffness) * rate;  // contacts of this kind have n = 1 and no h
     return 1 + damping(approach) * rate;
   }
-  /// The borders of one contact whose approach speed is `approach`: the touch, the let-go, where the force vanishes although bodies overlap.
+  /// The borders of one contact whose approach speed is `approach`: touch, let-go, and the force vanishing although the bodies overlap.
   void borders(double depth, double rate, double approach, double* value) const {
     const bool touching = approach > 0;
     value[0] = touching ? -1 : depth;
@@ -85,18 +85,18 @@ struct ContactForce {
   static constexpr std::string_view border_name(int border, bool rising) {
     return border == kTouch ? "touch" : border == kLetGo ? "let-go" : rising ? "force returns" : "force vanishes";
   }
-  /// What becomes of the approach speed where that border has been crossed, at this rate.
+  /// Updates the approach speed when that border has been crossed, at this rate.
   void cross(int border, double rate, double& approach) const {
     if (border == kTouch) approach = std::max(rate, least_approach);
     if (border == kLetGo) approach = 0;
   }
-  /// The stiffness at a depth, for what only asks how stiff a joint is [N/m].
-  static constexpr double kUsualDepth = 1e-6;  // where the stiffness stands for the contact's, in guesses, checks and errors [m]
+  /// The stiffness at a depth, for callers that only need to know how stiff a joint is [N/m].
+  static constexpr double kUsualDepth = 1e-6;  // depth at which the stiffness represents the contact's in guesses, checks and errors [m]
   double stiffness_at(double depth) const { return stiffness * exponent * std::pow(depth, exponent - 1); }
 };
 
-/// Coulomb's friction on a ramp, J. A. C. Ambrosio, Impact of rigid and flexible multibody systems, in: Virtual Nonlinear Multibody Systems, NATO
-/// ASI (2002): none below a slip of v_0, in full above v_1. theory/contact Eq. (3.1).
+/// Coulomb friction with a ramp, J. A. C. Ambrosio, Impact of rigid and flexible multibody systems, in: Virtual Nonlinear Multibody Systems, NATO
+/// ASI (2002): none below a slip speed of v_0, in full above v_1. theory/contact Eq. (3.1).
 struct RampedFriction {
   double coefficient = 0;        // mu [-]
   double start = 0, end = 1e-3;  // v_0, v_1 [m/s]
@@ -107,21 +107,21 @@ struct RampedFriction {
     using namespace law_math;
     if (coefficient == 0) return T(0.0);
     const T size = abs(slip), beyond = where_positive(slip, slip - T(start), slip + T(start));
-    const T ramp = (1 / (end - start)) * where_positive(T(start) - size, T(0.0), beyond);  // its slope at rest is that of the ramp if v_0 = 0
+    const T ramp = (1 / (end - start)) * where_positive(T(start) - size, T(0.0), beyond);  // with v_0 = 0 its slope at rest is that of the ramp
     return -coefficient * (normal * where_positive(size - T(end), where_positive(slip, T(1.0), T(-1.0)), ramp));
   }
 };
 
-/// Two surfaces at the point where they are to touch.
+/// Two surfaces at the point where they may touch.
 template <class T>
 struct ContactMotion {
-  T depth, rate, slip;  // overlap, negative while apart; d/dt of it; speed along each other [m, m/s, m/s]
+  T depth, rate, slip;  // overlap, negative while apart; its rate; speed along each other [m, m/s, m/s]
 };
 
-/// What acts between them, all zero while they are apart; friction is that of who calls.
+/// Forces between them, all zero while they are apart; the caller adds the friction.
 template <class T>
 struct PointForces {
-  T normal, friction;  // N >= 0 unless they attract; along the slip and against it [N]
+  T normal, friction;  // N >= 0 unless they attract; friction along the slip, opposing it [N]
   T energy, loss;      // [J, W]
 };
 template <class T>

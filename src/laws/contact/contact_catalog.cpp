@@ -1,4 +1,4 @@
-// The catalog's entries of pins with clearance, of contact with an edge, and of teeth with play.
+// The catalog's entries for pins with clearance, contact with an edge, and teeth with play.
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -64,7 +64,7 @@ constexpr DampingKeys kDamping{"contact_model", "restitution", "damping_factor",
 LawFault contact_fault(const LawSetting& at) {
   if (LawFault fault = kDamping.fault(at); !fault.key.empty()) return fault;
   const double start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
-  const bool rubs = start > 0 || end > 0;  // teeth have no such keys
+  const bool rubs = start > 0 || end > 0;  // teeth do not have these keys
   if (rubs && !(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
   if (at.number("static_friction") > 0 && !(at.number("friction_coefficient") > 0)) return {"friction_coefficient", "what sticks by static_friction rubs when it slips", "friction_coefficient, at most static_friction"};
   if (const double stuck = at.number("static_friction"); stuck > 0 && stuck < at.number("friction_coefficient"))
@@ -77,7 +77,7 @@ LawFault contact_fault(const LawSetting& at) {
   return {};
 }
 
-// bearing: the radius that the pin's surface lies in.
+// bearing: the radius of the surface that surrounds the pin.
 ContactForce contact_of(const LawSetting& at, double bearing) {
   ContactForce contact;
   contact.stiffness = at.number("contact_stiffness");

@@ -1,4 +1,4 @@
-// How contacts and stops are damped: the same choice of models, by keys of their own names.
+// Damping of contacts and stops: the same choice of models, with different key names.
 #pragma once
 
 #include <string_view>
@@ -14,7 +14,7 @@ struct DampingKeys {
   ContactModel model_of(const LawSetting& at) const;
   /// Exponent and damping of the contact, from the model and its keys.
   void set(const LawSetting& at, ContactForce& contact) const;
-  /// Why they do not go together; no key: they do.
+  /// Why they are inconsistent; an empty key: they are consistent.
   LawFault fault(const LawSetting& at) const;
 };
 

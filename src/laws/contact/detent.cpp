@@ -2,7 +2,7 @@
 
 namespace pintle {
 
-// On the arc of the notch the ball's centre goes round that of the notch, on the edge round the edge. Its slope is tan psi on both. Eqs. (8.2), (8.3)
+// On the arc of the notch the ball's centre moves on a circle about the notch's centre, on the edge on a circle about the edge. Its slope is tan psi on both. Eqs. (8.2), (8.3)
 BallLift NotchProfile::at(double u) const {
   const double from = from_notch(u), side = from < 0 ? -1 : 1, distance = std::abs(from);
   const double round = notch - ball, bottom = round * (1 - std::sqrt(1 - half_angle_sine() * half_angle_sine()));

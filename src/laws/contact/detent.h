@@ -1,9 +1,9 @@
-// A detent: a ball, pressed by a spring, that sinks into notches of what moves past it.
+// A detent: a ball, pressed by a spring, that sinks into notches of the part moving past it.
 //
 //   f = -r (F_0 + k y) y'(u),   V = F_0 y + 1/2 k y^2,   u = r (z - z_0)       theory/contact Eq. (8.1)
 //
-// z is the coordinate that the joint leaves free, r the radius at which the ball runs (1 for slides), y(u) how far the notch has lifted the ball. The
-// slope of the force has a kink where the ball reaches the edge of a notch and where it leaves it: borders.
+// z is the free coordinate of the joint, r the radius at which the ball runs (1 for slides), y(u) the lift of the ball by the notch. The slope of the
+// force has a kink where the ball reaches the edge of a notch and where it leaves it: these are borders.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace pintle {
 
-/// The lift of the ball over its place along the surface, with its slope and curvature.
+/// The lift of the ball as a function of its position along the surface, with slope and curvature.
 struct BallLift {
   double y, slope, curvature;  // [m], [-], [1/m]
 };
@@ -24,11 +24,11 @@ struct BallLift {
 /// Ball and notches.
 struct NotchProfile {
   double ball = 3e-3, notch = 5e-3, width = 6e-3;  // R, rho, w [m]
-  double pitch = 0;                                // from notch to notch; 0: there is one [m]
+  double pitch = 0;                                // from notch to notch; 0: only one [m]
 
   double half_angle_sine() const { return width / (2 * notch); }              // sin phi (8.2)
   double edge() const { return (notch - ball) * half_angle_sine(); }          // u_1, where the ball reaches the edge (8.2)
-  /// The place from the nearest notch.
+  /// The position relative to the nearest notch.
   double from_notch(double u) const { return pitch > 0 ? u - pitch * std::round(u / pitch) : u; }
   BallLift at(double u) const;
 };

@@ -1,4 +1,4 @@
-// The catalog's entry of detents.
+// The catalog's entry for detents.
 #include <array>
 #include <fmt/format.h>
 #include <memory>

@@ -18,7 +18,7 @@ namespace {
 
 using Vec = Planar::Vec;
 
-// sin phi = 3/5: the ball reaches the edge 1.2 mm from the middle, lifted by 2 mm (1 - 4/5), and lies on the surface 3 mm from it, lifted by 3 mm/5 more.
+// sin phi = 3/5: the ball reaches the edge 1.2 mm from the middle, lifted by 2 mm (1 - 4/5), and lies on the surface 3 mm from it, lifted by a further 3 mm/5.
 constexpr NotchProfile kNotch{.ball = 3e-3, .notch = 5e-3, .width = 6e-3, .pitch = 0};
 
 TEST(Detent, TheBallIsLiftedByArcAndEdge) {
@@ -29,7 +29,7 @@ TEST(Detent, TheBallIsLiftedByArcAndEdge) {
   EXPECT_NEAR(kNotch.at(-1.2e-3 - 1e-12).slope, -0.75, 1e-8);
   EXPECT_NEAR(kNotch.at(3e-3).y, 1e-3, 1e-17);
   EXPECT_EQ(kNotch.at(3.1e-3).slope, 0);
-  // On the edge the ball's centre is on a circle of its own radius about it.
+  // On the edge the ball's centre moves on a circle of the ball's radius about the edge.
   for (const double u : {1.3e-3, 2e-3, 2.9e-3}) {
     const BallLift lift = kNotch.at(u);
     EXPECT_NEAR(std::hypot(3e-3 - u, lift.y - 1e-3 + 3e-3), 3e-3, 1e-17);
@@ -39,7 +39,7 @@ TEST(Detent, TheBallIsLiftedByArcAndEdge) {
   }
 }
 
-// Where the spring is soft against its preload the hardest place is the edge: (F_0 + k y_1) tan phi.
+// With a soft spring and a high preload the largest resistance is at the edge: (F_0 + k y_1) tan phi.
 TEST(Detent, BreaksAwayAtTheEdge) {
   for (const bool turns : {false, true}) {
     const std::string type = turns ? "revolute" : "prismatic";
@@ -65,7 +65,7 @@ TEST(Detent, BreaksAwayAtTheEdge) {
       most = std::max(most, -law.force({0, gap, Vec::Map(still), nullptr})[turns ? 2 : 0]);
     }
     EXPECT_NEAR(most, radius * (20 + 5e3 * 0.4e-3) * 0.75, 1e-9);
-    // What it takes to lift the ball over the edge, once through: F_0 y + k y^2/2 at y = 1 mm. The next notch, a twelfth of a turn on, is the same.
+    // The work to lift the ball over the edge, once through: F_0 y + k y^2/2 at y = 1 mm. The next notch, a twelfth of a turn on, is the same.
     Vec out = Vec::Zero(), next = Vec::Zero();
     out[turns ? 2 : 0] = 3.05e-3 / radius;
     next[2] = std::numbers::pi / 6 + 1e-3 / radius;

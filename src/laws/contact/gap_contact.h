@@ -1,5 +1,5 @@
-// A contact along one gap: a cam and its follower, an edge and what runs on it. The joint's displacement is the distance of the surfaces, with their slip
-// along each other beside it; they press and do not pull, and may rub.
+// A contact along one gap: a cam and its follower, an edge and a body running on it. The joint's displacement consists of the distance of the surfaces
+// and their slip along each other. The surfaces press but do not pull, and may have friction.
 //
 //   d = -e,  d' = -e',  force N on the gap, friction on the slip        theory/contact section 1, theory/cams section 3
 #pragma once
@@ -36,7 +36,7 @@ struct GapContactLaw : RubbingContact {
   void borders(const LawInput<double>& in, double* value) const { RubbingContact::borders(motion(in), in.state, value); }
   void cross(int border, const LawInput<double>& in, double* state) const { RubbingContact::cross(border, motion(in), state); }
 
-  /// At the depth that a follower usually has: assembly puts it onto the cam.
+  /// At the usual depth of a follower: assembly puts it onto the cam.
   Planar::Vec engaged_stiffness() const { return closed_stiffness(); }
   Planar::Vec closed_stiffness() const { return {contact.stiffness_at(ContactForce::kUsualDepth), 0, 0}; }
   double penetration(const Planar::Vec& gap) const { return -gap[0]; }
@@ -68,7 +68,7 @@ struct GapContactLaw : RubbingContact {
   }
 };
 
-/// What runs over an edge may start in the air.
+/// A body that runs over an edge may start in the air.
 struct RoadContactLaw : GapContactLaw {
   static constexpr bool kStartsFree = true;
 

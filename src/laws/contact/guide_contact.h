@@ -1,9 +1,9 @@
-// A slider with clearance in its guide, which it touches with its two ends: it may move across, tilt, and lie on both walls.
+// A slider with clearance in its guide, touching it with its two ends: it may move across, tilt, and lie on both walls.
 //
 //   x_i = x + l_i cos a,  y_i = y + l_i sin a,  l = (L/2, -L/2)      theory/contact Eq. (4.4)
 //   d_i = |y_i| - c,  n_i = sign y_i,  v_i = x_i'                    Eq. (4.5)
 //
-// Each end has a contact of its own, with its own states; force and friction push at that point.
+// Each end has a contact of its own, with its own states; force and friction act at that point.
 #pragma once
 
 #include <algorithm>
@@ -70,7 +70,7 @@ struct GuideContactLaw : RubbingContact {
     const double k = contact.stiffness_at(0.1 * clearance);
     return {0, 2 * k, 0.5 * k * length * length};
   }
-  /// Each end on the side to which its share of the load presses it; one without a share lies on the other's side.
+  /// Each end lies on the side to which its share of the load presses it; an end without a share lies on the other end's side.
   std::optional<Planar::Vec> gap_under(const Planar::Vec& force) const {
     const std::array<double, kEnds> share{0.5 * force[1] + force[2] / length, 0.5 * force[1] - force[2] / length};
     const double least = kNoShare * std::max(std::abs(share[0]), std::abs(share[1]));
@@ -125,7 +125,7 @@ struct GuideContactLaw : RubbingContact {
  private:
   int first_state(int end) const { return end * RubbingContact::n_states(); }
   static constexpr int kEnds = 2;
-  static constexpr double kNoShare = 1e-9;  // of the other end's: rounding
+  static constexpr double kNoShare = 1e-9;  // as a fraction of the other end's share: less is rounding
   template <class T>
   struct End : ContactMotion<T> {
     T side, arm_x, arm_y;

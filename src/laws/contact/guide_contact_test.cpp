@@ -1,4 +1,4 @@
-// A slider with clearance knows where it lies under a load: on one wall, or tilted between both.
+// A slider with clearance knows its position under a load: on one wall, or tilted between both.
 #include "laws/contact/guide_contact.h"
 
 #include <gtest/gtest.h>
@@ -23,11 +23,11 @@ TEST(GuideContact, KnowsWhereItLiesUnderALoad) {
     const std::optional<Planar::Vec> gap = law.gap_under(load);
     ASSERT_TRUE(gap);
     const Planar::Vec force = respond(law, *gap, Planar::Vec(Planar::Vec::Zero())).force;
-    EXPECT_LT((force - load).norm(), 1e-4 * load.norm()) << load.transpose() << ": " << force.transpose();  // the tilt of the guide is small, not zero
+    EXPECT_LT((force - load).norm(), 1e-4 * load.norm()) << load.transpose() << ": " << force.transpose();  // the tilt within the guide is small but not zero
   }
 }
 
-// All of the load at one end: the other one touches the same wall. No load at all: in the middle.
+// With the whole load at one end, the other end touches the same wall. Without a load: in the middle.
 TEST(GuideContact, AnEndThatCarriesNothingLiesOnTheOtherOnesSide) {
   const GuideContactLaw guide = smooth_guide();
   const std::optional<Planar::Vec> gap = guide.gap_under({0, 100, 50 * guide.length});

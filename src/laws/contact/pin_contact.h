@@ -1,4 +1,4 @@
-// A pin that touches what is around or below it: a bush with clearance, the two walls of a slot, one edge.
+// A pin in contact with the surface around or below it: a bush with clearance, the two walls of a slot, one edge.
 //
 //   bush:  d = |p| - c,  n = p/|p|        p = (x, y), the pin's centre as seen from the bush        theory/contact Eq. (4.1)
 //   slot:  d = |y| - c,  n = (0, sign y)
@@ -6,8 +6,7 @@
 //   d' = n . p',  v_t = t . p' + R w,  t = (-n_y, n_x)                                             Eq. (4.2)
 //   on the second body: force -N n + F_t t, couple R F_t; F_t against the slip v_t                 Eq. (4.3)
 //
-// The pin, of radius R, is on the second body. Force and slip are those of one point, at the pin's surface, so that nothing is missing in the
-// balance of moments.
+// The pin, of radius R, is on the second body. Force and slip are those of one point on the pin's surface, so that the moments balance exactly.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +42,7 @@ struct PinContact : RubbingContact {
   void cross(int border, const LawInput<double>& in, double* state) const { RubbingContact::cross(border, find(in), state); }
 
   double lever() const { return rubs() ? radius : 0; }
-  /// What stands apart from an edge stays apart when a mechanism is assembled; a pin with clearance is put into the middle.
+  /// A pin apart from an edge stays apart when a mechanism is assembled; a pin with clearance is put in the middle.
   Planar::Vec engaged_stiffness() const {
     return shape == Shape::kEdge ? Planar::Vec::Zero() : closed_stiffness();
   }
@@ -93,7 +92,7 @@ struct PinContact : RubbingContact {
       at.depth = T(radius) - in.gap[1];
     } else {
       const T x = shape == Shape::kBush ? in.gap[0] : none, y = in.gap[1];
-      const T distance = sqrt(x * x + y * y), least = T(kCentred * clearance);  // no direction in the centre, and no force
+      const T distance = sqrt(x * x + y * y), least = T(kCentred * clearance);  // no direction at the centre, and no force
       const T size = where_positive(distance - least, distance, least);
       at.nx = divide(x, size);
       at.ny = divide(y, size);
@@ -103,7 +102,7 @@ struct PinContact : RubbingContact {
     at.slip = at.nx * in.rate[1] - at.ny * in.rate[0] + radius * in.rate[2];
     return at;
   }
-  static constexpr double kCentred = 1e-6;  // of the clearance: a pin this near to the centre has no direction to the bush, and no force
+  static constexpr double kCentred = 1e-6;  // as a fraction of the clearance: a pin this close to the centre has no direction to the bush, and no force
 };
 
 struct ClearanceLaw : PinContact {

@@ -1,7 +1,7 @@
-// Two surfaces at one point: the normal force of their contact, and friction along it, on a ramp or with stiction.
+// Two surfaces at one point: the normal force of their contact, and friction along it, with a ramp or with stiction.
 //
-// States: the approach speed while they touch, 0 while they are apart; with stiction also those of StickSlip, which begin anew at every touch, and where a
-// force that had vanished returns. Touch and let-go are borders, and with stiction stick and slip. theory/contact sections 1 and 3.
+// States: the approach speed while they touch, 0 while they are apart; with stiction also those of StickSlip, which are reset at every touch, and where a
+// vanished force returns. Touch and let-go are borders; with stiction, stick and slip too. theory/contact sections 1 and 3.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ struct RubbingContact {
     double state_rate[1 + StickSlip::kStates];
     return forces<double>(at, state, state_rate);
   }
-  /// Surfaces that start in contact have not approached: the floor stands for their speed.
+  /// Surfaces that start in contact have no approach speed: the floor is used.
   void rest(const ContactMotion<double>& at, double* state) const {
     state[0] = at.depth > 0 ? contact.least_approach : 0;
     if (grip) grip->rest(at.slip, 0, state + 1);
@@ -66,7 +66,7 @@ struct RubbingContact {
     contact.cross(border, at.rate, state[0]);
     if (grip && border != ContactForce::kLetGo) grip->rest(at.slip, 0, state + 1);
   }
-  /// What Archard's law multiplies: surfaces that stick move by their springs only.
+  /// The power that Archard's law multiplies: surfaces that stick move only by their springs.
   double wear_power(double normal, double slip, const double* state) const { return sticks(state) ? 0 : std::max(0.0, normal) * std::abs(slip); }
   bool sticks(const double* state) const { return grip && state[0] > 0 && StickSlip::sticks(state + 1); }
 

@@ -1,4 +1,4 @@
-// The catalog's entries of stops.
+// The catalog's entries for stops.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ constexpr std::array<KeyInfo, 6> kCushionedKeys{{kLower, kUpper, kStiffness, kEx
 constexpr DampingKeys kDamping{"stop_model", "stop_restitution", "stop_damping_factor", "stop_damping", "stop_exponent", "stop_least_speed"};
 constexpr std::array<std::string_view, 4> kWithStops{"revolute", "prismatic", "slot", "cylinder"};
 
-// Where none is stated, a stroke ends of itself.
+// If no stop is stated, the end of the stroke is used.
 double lower_of(const LawSetting& at) { return std::max(at.number("lower_stop"), at.lower_end); }
 double upper_of(const LawSetting& at) { return std::min(at.number("upper_stop"), at.upper_end); }
 

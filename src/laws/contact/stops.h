@@ -1,9 +1,9 @@
-// The stops of what a joint leaves free: its angle or its slide z may lie between a lower and an upper one.
+// Stops for the free coordinate of a joint: its angle or slide z may lie between a lower and an upper stop.
 //
 //   upper: d = z - z_u,  f = -N        lower: d = z_l - z,  f = +N        theory/contact Eqs. (6.1), (6.2)
 //
-// N(d, d') is the force of a contact, a moment where z is an angle. Each stop has a state of its own, the approach speed while it is touched and 0
-// otherwise; touch and let-go are borders. A stop that is not stated stands at infinity.
+// N(d, d') is the force of a contact, a moment if z is an angle. Each stop has a state of its own, the approach speed while it is touched and 0
+// otherwise; touch and let-go are borders. A stop that is not stated is at infinity.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct StopContact {
   static constexpr bool kHolds = false, kStops = true;
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   ContactForce contact;
-  int free = 2;  // component that the stops bound
+  int free = 2;  // component that the stops limit
   double lower = -kNowhere, upper = kNowhere;  // [rad] or [m]
 
   int n_states() const { return kSides; }
@@ -38,7 +38,7 @@ struct StopContact {
       out.loss += f.loss;
     }
   }
-  /// A coordinate that starts beyond a stop has not approached it: the floor stands for its speed.
+  /// A coordinate that starts beyond a stop has no approach speed: the floor is used.
   void rest(const LawInput<double>& in, double* state) const {
     for (int side = 0; side < kSides; ++side) state[side] = stands(side) && find(in, side).depth > 0 ? contact.least_approach : 0;
   }
@@ -96,7 +96,7 @@ struct StopContact {
  protected:
   static constexpr int kSides = 2, kUpper = 1, kBorders = ContactForce::kBorders;
 
-  /// Of the stop that is touched: at most one is.
+  /// Of the touched stop: at most one is touched.
   static double approach_speed(const LawInput<double>& in) { return std::max(in.state[0], in.state[1]); }
 
   static constexpr double sign(int side) { return side == kUpper ? 1 : -1; }
@@ -114,7 +114,7 @@ struct StopContact {
   }
 };
 
-/// Stops that return what their restitution says.
+/// Stops that return the speed given by their restitution.
 struct HardStops : StopContact {
   static constexpr std::string_view kWord = "hard";
 
@@ -129,7 +129,7 @@ struct HardStops : StopContact {
   }
 };
 
-/// Stops behind a spring and a damper that grows over the length of a cushion.
+/// Stops consisting of a spring and a damper that grows over the length of a cushion.
 struct CushionedStops : StopContact {
   static constexpr std::string_view kWord = "cushioned";
 

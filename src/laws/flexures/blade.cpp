@@ -15,31 +15,31 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-// Slope angle of the blade, end forces.
+// Shape of the blade, as its slope angle, and end forces.
 struct BladeShape {
-  int level = 0;                          // of BladeBasis
+  int level = 0;                          // level of the BladeBasis
   double theta = 0;                       // slope at the far end [rad]
-  double c[BladeBasis::kMost] = {};       // of the functions of the basis
+  double c[BladeBasis::kMost] = {};       // coefficients of the basis functions
   double n[2] = {};                       // force on the far end, along and across the unloaded blade
 };
 
-constexpr int kBladeNewton = 30;                    // most iterations for the shape of a blade
-constexpr double kSettled = 1e-10;             // relative step after which the error is its square
-constexpr double kRounding = 1e-6;             // relative step below which one that does not shrink is rounding
-constexpr double kTail = 1e-8;                 // share of the last coefficients; energy and forces are wrong by its square
-constexpr double kRoughTail = 1e-4;            // the same with all the functions that there are
-constexpr int kFinest = 512;                   // parts into which the path is halved, at most
-constexpr double kMostTension = 1e5;           // in units of EI/L^2: beyond, functions of the basis do not follow the bend at the clamps
+constexpr int kBladeNewton = 30;                    // limit on Newton iterations for the shape of a blade
+constexpr double kSettled = 1e-10;             // relative step after which the error is about its square
+constexpr double kRounding = 1e-6;             // a step below this relative size that does not shrink is rounding
+constexpr double kTail = 1e-8;                 // accepted share of the last coefficients; energy and forces have an error of its square
+constexpr double kRoughTail = 1e-4;            // the same with the largest number of functions
+constexpr int kFinest = 512;                   // largest number of parts into which the path is divided
+constexpr double kMostTension = 1e5;           // in units of EI/L^2: beyond this the basis does not resolve the bending at the clamps
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 
-// With N functions of the basis, or, where N is Eigen::Dynamic, with as many as it has.
+// With N basis functions or, if N is Eigen::Dynamic, with as many as the basis has.
 template <int N>
 class BentBlade {
   static constexpr bool kKnown = N != Eigen::Dynamic;
   static constexpr int kPoints = kKnown ? N + BladeBasis::kMorePoints : N, kUnknowns = kKnown ? N + 2 : N;
-  static constexpr int kMostFunctions = kKnown ? N : BladeBasis::kMost;                // for which there is room
-  static constexpr int kMostPoints = kMostFunctions + BladeBasis::kMorePoints;         // the same
-  static constexpr int kMostUnknowns = kMostFunctions + 2;                             // the same
+  static constexpr int kMostFunctions = kKnown ? N : BladeBasis::kMost;                // capacity
+  static constexpr int kMostPoints = kMostFunctions + BladeBasis::kMorePoints;         // capacity
+  static constexpr int kMostUnknowns = kMostFunctions + 2;                             // capacity
   using Column = Eigen::Matrix<double, kUnknowns, 1, 0, kMostUnknowns, 1>;
   using Columns3 = Eigen::Matrix<double, kUnknowns, 3, 0, kMostUnknowns, 3>;
   using Square = Eigen::Matrix<double, kUnknowns, kUnknowns, 0, kMostUnknowns, kMostUnknowns>;
@@ -74,8 +74,8 @@ class BentBlade {
     return false;
   }
 
-  // Whether so many functions follow the shape and changes of it, to within `share`: of exp(k s), whose k is the root of the force along the blade, the
-  // coefficients fall as exp(-n^2/k).
+  // Whether this many functions represent the shape and changes of it, to within `share`. The coefficients of exp(k s), where k is the root of the
+  // force along the blade, fall as exp(-n^2/k).
   bool follows_changes() const { return n_ * n_ >= -std::log(kTail) * std::sqrt(turns_.abs().maxCoeff()); }
   bool follows_shape(const BladeShape& shape, double share) const {
     double size = std::abs(shape.theta);
@@ -83,7 +83,7 @@ class BentBlade {
     return std::max(std::abs(shape.c[n_ - 1]), std::abs(shape.c[n_ - 2])) / std::sqrt(2 * n_ + 1) <= share * size;
   }
 
-  // What follows is at the equilibrium that has been found.
+  // The functions from here on are evaluated at the equilibrium found.
   BladeAnswer answer(const BladeShape& shape, const Vec3& rate, bool with_slopes) {
     lu_.compute(H_);
     BladeAnswer out;
@@ -105,7 +105,7 @@ class BentBlade {
   double largest(const BladeShape& shape, const Vec3& displacement, double by_bending, double by_pull) const {
     const Field curvature = shape.theta + (curvature_ * coefficients(shape)).array();
     const double inside = (by_bending * curvature.abs() + by_pull * N_.abs()).maxCoeff();
-    // At the ends from the balance of moments, which the forces fulfil better than the series does.
+    // At the ends from the balance of moments, which the forces satisfy better than the series does.
     const double far = moment_, near = far + (1 + displacement[0]) * shape.n[1] - displacement[1] * shape.n[0];
     const double pull = shape.n[0] * std::cos(shape.theta) + shape.n[1] * std::sin(shape.theta);
     return std::max({inside, by_bending * std::abs(far) + by_pull * std::abs(pull), by_bending * std::abs(near) + by_pull * std::abs(shape.n[0])});
@@ -127,10 +127,10 @@ class BentBlade {
     return sum;
   }
 
-  // The integrals of `field` with each function.
+  // The integrals of `field` times each function.
   Coefficients against_functions(const Field& field) const { return angle_.transpose().lazyProduct(field.matrix()); }
 
-  // Slope along the blade and forces in its axes: Eqs. (2.2), (2.4).
+  // Slope along the blade and forces in the blade's local axes: Eqs. (2.2), (2.4).
   void follow_slope(const BladeShape& shape) {
     slope_ = shape.theta * s_ + angle_.lazyProduct(coefficients(shape)).array();
     for (int q = 0; q < n() + BladeBasis::kMorePoints; ++q) {
@@ -176,12 +176,12 @@ class BentBlade {
     moment_by_theta_ = 1 + (turned * s_.square()).sum();
   }
 
-  // Whether the second variation is positive for all changes that leave the ends where they are. It is where no part of the blade carries
-  // more than the compression under which a blade buckles that is held against turning alone; else the signs of the eigenvalues say it: two are
-  // negative for the two forces, and none else.
+  // Whether the second variation is positive for all changes that leave the ends in place. It is if no part of the blade carries more than the
+  // buckling load of a blade that is held against rotation only. Otherwise the signs of the eigenvalues decide: exactly two are negative, for
+  // the two forces.
   bool is_stable() const { return turns_.minCoeff() > -kSurelyStable || negative_eigenvalues(H_) == 2; }
 
-  // Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).
+  // Number of negative eigenvalues of a symmetric matrix: that of negative pivots (Sylvester's law of inertia).
   static int negative_eigenvalues(Square H) {
     int negative = 0;
     for (Eigen::Index k = 0; k < H.rows(); ++k) {
@@ -199,7 +199,7 @@ class BentBlade {
   // Eqs. (2.11), (2.12).
   void find_losses(const Vec3& rate, bool with_slopes, BladeAnswer& out) const {
     const auto &c = cosine_, &s = sine_;
-    std::array<Field, 3> slope, along, across, pull, push;  // by each displacement: of the slope, of Eq. (2.11)'s brackets, and of N and Q at a held slope
+    std::array<Field, 3> slope, along, across, pull, push;  // derivatives by each displacement: of the slope, of the brackets in Eq. (2.11), and of N and Q at constant slope
     for (int k = 0; k < 3; ++k) {
       const Column u = follows_.col(k);
       slope[k] = slope_of(u);
@@ -219,7 +219,7 @@ class BentBlade {
     const auto by_force = [&](int a) -> Field { return pull[a] + 2 * difference * (N_ * pull[a] - Q_ * push[a]); };
     for (int k = 0; k < 3; ++k)
       for (int m = 0; m <= k; ++m) {
-        // The unknowns' second derivatives by displacements k and m: Eq. (2.12).
+        // The second derivatives of the unknowns by displacements k and m: Eq. (2.12).
         const Field both = slope[k] * slope[m];
         const Field turned = w_ * (third * both + by_force(k) * slope[m] + by_force(m) * slope[k] - difference * (pull[k] * push[m] + push[k] * pull[m]));
         const Field in_line = w_ * (both * (1 + 2 * difference * N_) - difference * (push[k] * slope[m] + push[m] * slope[k]));
@@ -247,20 +247,20 @@ class BentBlade {
   }
 
   double axial_, shear_;
-  int n_;  // N, where that is known
+  int n_;  // N, if that is known
   Eigen::Map<const Field> s_, w_;
   Eigen::Map<const Functions> angle_, curvature_;
   Field slope_, cosine_, sine_, versine_;  // 1 - cosine in `versine_`
   Field N_, Q_;                            // force along and across the blade
-  Field bends_, turns_;                    // derivative of the integrand of Eq. (2.3) by the slope, and the second one
+  Field bends_, turns_;                    // first and second derivatives of the integrand of Eq. (2.3) by the slope
   Square H_;                               // of the unknowns (c, n)
-  Column residual_, by_theta_;             // and their column for theta
+  Column residual_, by_theta_;             // and the column for theta
   double moment_ = 0, moment_by_theta_ = 0;
   Eigen::PartialPivLU<Square> lu_;
-  Columns3 follows_;  // of the unknowns by the displacement
+  Columns3 follows_;  // derivatives of the unknowns by the displacement
 };
 
-// use(blade) with as many functions as `level` has: most blades have 8 or 16, and what these take is compiled for them.
+// Calls use(blade) with as many functions as `level` has: most blades need 8 or 16, for which the code is compiled.
 template <class Use>
 auto with_functions(int level, double axial, double shear, const Use& use) {
   const auto with = [&]<int N>(std::integral_constant<int, N>) {
@@ -272,7 +272,7 @@ auto with_functions(int level, double axial, double shear, const Use& use) {
   return with(std::integral_constant<int, Eigen::Dynamic>());
 }
 
-// Calls use(blade) with as many functions as the shape and changes of it take, at the equilibrium next to `shape`.
+// Calls use(blade) with as many functions as the shape and its changes require, at the equilibrium next to `shape`.
 template <class Use>
 bool solve(const Vec3& displacement, double axial, double shear, BladeShape& shape, const Use& use) {
   enum class Found { kNothing, kMoreWanted, kRight };
@@ -290,7 +290,7 @@ bool solve(const Vec3& displacement, double axial, double shear, BladeShape& sha
   }
 }
 
-// The same at the equilibrium that is connected with the straight blade, along a path from there, in one step where that is found: Eq. (2.9).
+// The same at the equilibrium that is connected with the straight blade: in one step if that succeeds, otherwise along a path from the straight blade: Eq. (2.9).
 template <class Use>
 bool find(const Vec3& displacement, double axial, double shear, const Use& use) {
   if (!displacement.allFinite() || std::hypot(1 + displacement[0], displacement[1]) - 1 > axial * kMostTension) return false;
@@ -301,11 +301,11 @@ bool find(const Vec3& displacement, double axial, double shear, const Use& use) 
     const double next = done + part > 1 - 1e-9 ? 1 : done + part, more = next - done;
     const Vec3 to = place(next);
     BladeShape trial = shape;
-    const double bent = 3 * displacement[2] - 6 * displacement[1];  // small deflections
+    const double bent = 3 * displacement[2] - 6 * displacement[1];  // for small deflections
     trial.theta = to[2];
     trial.c[0] += more * bent;
     trial.n[1] -= 2 * more * bent;
-    if (done == 0) {  // the ends come nearer by half of the integral of the slope's square
+    if (done == 0) {  // the ends approach each other by half of the integral of the squared slope
       const double b = trial.c[0], shortening = to[2] * to[2] / 6 - to[2] * b / 12 + b * b / 60, pull = (to[0] + shortening) / axial;
       if (pull > -kSurelyStable) trial.n[0] = pull;
     }

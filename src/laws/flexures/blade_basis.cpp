@@ -19,7 +19,7 @@ Eigen::VectorXd legendre(int n, double x) {
 }  // namespace
 
 GaussLegendre::GaussLegendre(int n) : x(n), w(n) {
-  constexpr int kNewton = 10;  // iterations for each node of Gauss and Legendre's quadrature
+  constexpr int kNewton = 10;  // iterations for each node of Gauss-Legendre quadrature
   for (int k = 0; k < n; ++k) {
     double at = -std::cos(std::numbers::pi * (k + 0.75) / (n + 0.5)), slope = 1;
     for (int i = 0; i < kNewton; ++i) {

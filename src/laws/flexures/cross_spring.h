@@ -1,5 +1,5 @@
-// A cross-spring pivot: two equal leaf springs that cross. Both markers are where they cross, unloaded, and along the bisector of the two blades,
-// which run from the first body to the second. theory/flexures Eqs. (4.1), (4.2).
+// A cross-spring pivot: two equal leaf springs that cross. In the unloaded state both markers are at the crossing, along the bisector of the two
+// blades, which run from the first body to the second. theory/flexures Eqs. (4.1), (4.2).
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace pintle {
 struct CrossSpringLaw {
   static constexpr std::string_view kWord = "cross-spring";
 
-  /// half_angle: of a blade against the bisector [rad]; crossing: the part of a blade between the first body and the crossing [-].
+  /// half_angle: between a blade and the bisector [rad]; crossing: the fraction of a blade between the first body and the crossing [-].
   CrossSpringLaw(const BladeSize& blade, double half_angle, double crossing);
   static CrossSpringLaw typical() { return {LeafSpringLaw::typical().size(), 0.7, 0.4}; }
 
@@ -47,7 +47,7 @@ struct CrossSpringLaw {
   void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const;
 
  private:
-  /// The end of a blade on the second body: how far it is displaced, in the axes of the blade, and where it is from the second marker.
+  /// The end of a blade on the second body: its displacement, in the axes of the blade, and its position relative to the second marker.
   template <class T>
   struct End {
     T gap[3];

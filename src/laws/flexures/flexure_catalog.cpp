@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, 1> kWelds{"fixed"};
 constexpr std::array<std::string_view, 2> kPlaneWords{"stress", "strain"}, kShearWords{"neglected", "included"};
-constexpr double kSlenderness = 5, kShearFactor = 5.0 / 6;  // least length over thickness of a blade; of a rectangle
+constexpr double kSlenderness = 5, kShearFactor = 5.0 / 6;  // least ratio of a blade's length to its thickness; shear factor of a rectangle
 
 constexpr KeyInfo kLength{.key = "length", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "of the blade between its clamps, the two markers"};
 constexpr KeyInfo kBladeLength{.key = "length", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "of each of the two blades between its clamps"};

@@ -1,4 +1,4 @@
-// Laws of flexures made from their keys, and what a law answers.
+// Laws of flexures made from their keys, and what they report.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ inline std::vector<double> observed(const Law& law, const Vec& gap) {
   return values;
 }
 
-/// The gap and the force of the joint with its ends exchanged and turned round, where the second marker is at `rest` of the first unloaded.
+/// The gap and the force of the joint with its ends exchanged and turned round, where the unloaded second marker is at `rest` relative to the first.
 struct Exchanged {
   Vec gap, force;
 };

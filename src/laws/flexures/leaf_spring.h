@@ -2,9 +2,9 @@
 //
 //   f = -dV/de - d(P/2)/de'                      theory/flexures Eqs. (2.8), (2.10)
 //   V = least energy of the blade                Eq. (2.3)
-//   P = damping_time times the square of the strains' rates, weighted with their stiffness, >= 0     Eq. (2.11)
+//   P = damping_time times the square of the strain rates, weighted with their stiffness, >= 0       Eq. (2.11)
 //
-// e is counted from the unloaded place, where the second marker is at (length, 0) of the first. Where no equilibrium is found that is
+// e is counted from the unloaded position, where the second marker is at (length, 0) of the first. If no equilibrium is found that is
 // connected with the straight blade (Eq. (2.9)), the law is that of small deflections, Eq. (2.13), and the column `equilibrium` is 0.
 #pragma once
 
@@ -21,8 +21,8 @@ namespace pintle {
 struct BladeSize {
   double length = 0, width = 0, thickness = 0;  // [m]
   double modulus = 0;                           // of a fibre [Pa]
-  double shear_stiffness = 0;                   // GA of the section, 0: there is no shear [N]
-  double damping_time = 0;                      // stress over strain rate, by the modulus [s]
+  double shear_stiffness = 0;                   // GA of the section, 0: no shear deformation [N]
+  double damping_time = 0;                      // stress per strain rate, over the modulus [s]
 
   double bending_stiffness() const;  // EI [N*m^2]
 };
@@ -54,7 +54,7 @@ struct LeafSpringLaw {
 
   std::span<const LawColumn> columns() const;
   void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const;
-  /// The largest stress of bending and stretching along the blade [Pa], and whether it is in equilibrium.
+  /// The largest stress from bending and stretching along the blade [Pa], and whether there is an equilibrium.
   struct Stress {
     double largest = 0;
     bool found = false;
@@ -63,7 +63,7 @@ struct LeafSpringLaw {
   const BladeSize& size() const { return size_; }
 
  private:
-  /// Force on the second body, energy and loss by gap and rate.
+  /// Force on the second body, energy and loss as functions of gap and rate.
   law_math::Slopes<6, 5> respond(const double* at, bool with_slopes) const;
   law_math::Slopes<6, 5> respond_straight(const Eigen::Vector3d& gap, const Eigen::Vector3d& rate) const;
   Eigen::Vector3d without_dimension(const double* gap) const { return {gap[0] / size_.length, gap[1] / size_.length, gap[2]}; }

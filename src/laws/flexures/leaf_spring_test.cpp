@@ -15,7 +15,7 @@ namespace {
 using namespace flexure;
 constexpr double kL = 0.2, kB = 0.03, kT = 4e-3, kE = 200e9;
 constexpr double kEI = kE * kB * kT * kT * kT / 12, kEA = kE * kB * kT;
-constexpr double kStretch = kEI / (kEA * kL * kL);  // compliance of the blade without dimension
+constexpr double kStretch = kEI / (kEA * kL * kL);  // dimensionless axial compliance of the blade
 
 Values blade(double thickness = kT) { return {{"length", {kL}}, {"width", {kB}}, {"thickness", {thickness}}, {"elastic_modulus", {kE}}, {"damping_time", {1e-3}}}; }
 Law leaf() { return made("leaf-spring", blade()); }
@@ -29,7 +29,7 @@ double root_of(const std::function<double(double)>& f, double low, double high) 
   return 0.5 * (low + high);
 }
 
-// The end of a blade bent into a circle.
+// The end of a blade bent into a circular arc.
 Vec arc(double angle) { return {kL * (std::sin(angle) / angle - 1), 2 * kL * std::pow(std::sin(0.5 * angle), 2) / angle, angle}; }
 
 TEST(LeafSpring, HasTheStiffnessOfABeamAtSmallDeflections) {
@@ -41,7 +41,7 @@ TEST(LeafSpring, HasTheStiffnessOfABeamAtSmallDeflections) {
   EXPECT_TRUE(leaf().engaged_stiffness().isApprox(K.diagonal(), 1e-12));
 }
 
-// S. P. Timoshenko's beam, with 5/6 of the section for shear.
+// S. P. Timoshenko's beam, with 5/6 of the section effective in shear.
 TEST(LeafSpring, DeformsByShearWhereAsked) {
   Values values = blade(0.03);
   values["shear"] = {1};
@@ -64,11 +64,11 @@ TEST(LeafSpring, BendsIntoACircleUnderAMoment) {
   }
 }
 
-// A cantilever with a force P across at its end, from the first integral of the elastica with stretch,
+// A cantilever with a transverse force P at its end, from the first integral of the elastica with stretch,
 //   1/2 slope'^2 = P (sin end - sin slope) + 1/2 stretch P^2 (sin^2 end - sin^2 slope),
-// in numbers without dimension; `end` is the slope of the end.
+// in dimensionless form; `end` is the slope at the end.
 struct Cantilever {
-  double length = 0, x = 0, y = 0;  // of the blade that this load bends so far; its end
+  double length = 0, x = 0, y = 0;  // length of the blade that this load bends so far; position of its end
   Cantilever(double end, double P, double stretch) {
     const GaussLegendre gauss(80);
     for (int q = 0; q < 80; ++q) {
@@ -96,7 +96,7 @@ TEST(LeafSpring, FollowsTheElasticaUnderAForceAcross) {
   }
 }
 
-// K. E. Bisshopp and D. C. Drucker, Quarterly of Applied Mathematics 3 (1945) 272-275: without stretch the reference above is theirs in elliptic integrals.
+// K. E. Bisshopp and D. C. Drucker, Quarterly of Applied Mathematics 3 (1945) 272-275: without stretch the reference above equals theirs, in elliptic integrals.
 TEST(LeafSpring, HasAReferenceThatIsBisshoppsAndDruckers) {
   for (const double end : {0.2, 0.9, 1.3}) {
     const double k = std::sqrt(0.5 * (1 + std::sin(end))), first = std::asin(1 / (k * std::sqrt(2.0))), alpha = std::comp_ellint_1(k) - std::ellint_1(k, first);
@@ -107,8 +107,8 @@ TEST(LeafSpring, HasAReferenceThatIsBisshoppsAndDruckers) {
   }
 }
 
-// A straight blade under a compression P (negative: tension): across, guided in angle, and against turning with the end on its line. The slope obeys
-// slope'' + P (1 - stretch P) slope = const.
+// A straight blade under a compression P (negative: tension): its transverse stiffness with the angle guided, and its rotational stiffness with the
+// end on its line. The slope satisfies slope'' + P (1 - stretch P) slope = const.
 TEST(LeafSpring, IsABeamColumnUnderAxialLoad) {
   const Law law = leaf();
   for (const double P : {-400.0, -30.0, -1.0, 1.0, 9.0, 20.0, 35.0}) {
@@ -123,8 +123,8 @@ TEST(LeafSpring, IsABeamColumnUnderAxialLoad) {
   }
 }
 
-// Euler: pi^2/4 of a blade free at its end, where the tangent becomes singular; 4 pi^2 between clamps, where its equilibrium ends. Of a blade that
-// shortens P (1 - stretch P) takes the place of P.
+// Euler: pi^2/4 for a blade with a free end, where the tangent becomes singular; 4 pi^2 between clamps, where the equilibrium ceases. For a blade
+// that shortens, P (1 - stretch P) takes the place of P.
 TEST(LeafSpring, BucklesAtEulersLoads) {
   const Law law = leaf();
   const auto at = [](double P) { return Vec(-kL * kStretch * P, 0, 0); };
@@ -142,7 +142,7 @@ TEST(LeafSpring, BucklesAtEulersLoads) {
   EXPECT_TRUE(force(law, beyond).isApprox(-leaf().engaged_stiffness().cwiseProduct(beyond), 1e-12));
 }
 
-// Guided in angle, its end comes nearer by 3/5 of the square of the displacement across over the length.
+// Guided in angle, the end comes nearer by 3/5 of the square of the transverse displacement over the length.
 TEST(LeafSpring, ShortensAsItMovesAcross) {
   const Law law = leaf();
   for (const double across : {0.002, 0.02}) {
@@ -181,7 +181,7 @@ TEST(LeafSpring, DoesNotKnowWhichEndIsFirst) {
   }
 }
 
-// On its way into a circle only its curvature changes, by the rate of the angle over the length.
+// On its way into a circle only its curvature changes, at the rate of the angle over the length.
 TEST(LeafSpring, LosesByTheRateOfItsStrain) {
   const Law law = leaf();
   for (const double angle : {0.3, 1.5, 4.0}) {
@@ -192,7 +192,7 @@ TEST(LeafSpring, LosesByTheRateOfItsStrain) {
   }
 }
 
-// From the unloaded blade to loads that bend it far, of blades whose stiffnesses differ by up to a million.
+// From the unloaded blade to loads that bend it strongly, for blades whose stiffnesses differ by up to a million.
 TEST(LeafSpring, IsFoundUnderItsLoad) {
   for (const double thickness : {0.01, 1e-3, 2e-4}) {
     const Law law = made("leaf-spring", blade(thickness));

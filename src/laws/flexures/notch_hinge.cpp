@@ -7,10 +7,10 @@
 
 namespace pintle {
 
-// The integrands are steep within about the root of thickness times radius from the middle: panels there are short and double outwards.
+// The integrands are steep within about the root of thickness times radius from the middle: panels are short there and double in length outwards.
 NotchCompliance compliance_of(const NotchSize& size) {
   constexpr int kPoints = 16;
-  constexpr double kShear = 1.2;  // of a rectangle
+  constexpr double kShear = 1.2;  // for a rectangle
   static const GaussLegendre gauss(kPoints);
   const double a = size.semi_axis_x, b = size.semi_axis_y, half_pi = 2 * std::atan(1.0);
   double stretch = 0, bend = 0, bend_by_force = 0;  // integrals of 1/h, 1/h^3, x^2/h^3
@@ -31,7 +31,7 @@ NotchCompliance compliance_of(const NotchSize& size) {
 
 NotchHingeLaw NotchHingeLaw::of(const NotchSize& size, double damping_time) {
   const NotchCompliance compliance = compliance_of(size);
-  const double radius = size.semi_axis_x * size.semi_axis_x / size.semi_axis_y;                  // of the notch's ground
+  const double radius = size.semi_axis_x * size.semi_axis_x / size.semi_axis_y;                  // of curvature, at the bottom of the notch
   const double concentration = std::pow(1 + size.thickness / (2 * radius), 0.45);                // (3.7)
   NotchHingeLaw law;
   law.k << 1 / compliance.axial, 1 / compliance.transverse, 1 / compliance.bending;

@@ -1,10 +1,10 @@
-// A notch hinge: two bodies joined by a neck between two cut-outs, circular or elliptic. Both markers are at the middle of the neck, along its axis.
-// Compliances of J. M. Paros and L. Weisbord, Machine Design 37 (1965) 151-156, without their approximations.
+// A notch hinge: two bodies joined by a neck between two circular or elliptic cut-outs. Both markers are at the middle of the neck, along its axis.
+// Compliances after J. M. Paros and L. Weisbord, Machine Design 37 (1965) 151-156, without their approximations.
 //
 //   p = K (d + damping_time d'), d in axes that turn by half the angle      theory/flexures Eqs. (3.1), (3.2)
 //   f = -(R p, ...), V = 1/2 d' K d + 1/2 k angle^2                         Eq. (3.3)
 //
-// The axes half-way between both bodies make first and second interchangeable.
+// The axes half-way between both bodies make the first and second body interchangeable.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@
 namespace pintle {
 
 struct NotchSize {
-  double thickness = 0;                // least, of the neck [m]
+  double thickness = 0;                // least thickness of the neck [m]
   double semi_axis_x = 0, semi_axis_y = 0;  // of the cut-outs, along the neck and across it [m]
   double width = 0;                    // out of the plane [m]
-  double modulus = 0, shear_modulus = 0;  // of bending and stretching; G [Pa]
+  double modulus = 0, shear_modulus = 0;  // for bending and stretching; G [Pa]
 };
 
-/// Displacement by force along x and y and rotation by moment, all at the middle of the neck. Eqs. (3.4)-(3.6).
+/// Displacement per force along x and y and rotation per moment, all at the middle of the neck. Eqs. (3.4)-(3.6).
 struct NotchCompliance {
   double axial = 0, transverse = 0;  // [m/N]
   double bending = 0;                // [rad/(N*m)]

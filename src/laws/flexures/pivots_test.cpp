@@ -27,12 +27,12 @@ TEST(NotchHinge, HasParosAndWeisbordsCompliance) {
     EXPECT_NEAR(hinge.bending, bending, 1e-11 * bending) << t;
     EXPECT_NEAR(hinge.axial, axial, 1e-11 * axial) << t;
   }
-  const NotchCompliance thin = compliance_of(notch(5e-5, R, R));  // their short forms, of thin necks
+  const NotchCompliance thin = compliance_of(notch(5e-5, R, R));  // their short forms, for thin necks
   EXPECT_NEAR(thin.bending / (9 * kPi * std::sqrt(R) / (2 * kAluminium * kNeckWidth * std::pow(5e-5, 2.5))), 1, 0.01);
   EXPECT_NEAR(thin.axial / ((kPi * std::sqrt(R / 5e-5) - 2.57) / (kAluminium * kNeckWidth)), 1, 0.01);
 }
 
-// S. T. Smith, V. G. Badami, J. S. Dale, Y. Xu, Review of Scientific Instruments 68 (1997) 1474-1483: elliptic ones.
+// S. T. Smith, V. G. Badami, J. S. Dale, Y. Xu, Review of Scientific Instruments 68 (1997) 1474-1483: elliptic hinges.
 TEST(NotchHinge, OfAnEllipseIsThatOfACircleDrawnOut) {
   for (const double t : {2e-4, 2e-3}) {
     const NotchCompliance circle = compliance_of(notch(t, 4e-3, 4e-3)), ellipse = compliance_of(notch(t, 12e-3, 4e-3));
@@ -43,7 +43,7 @@ TEST(NotchHinge, OfAnEllipseIsThatOfACircleDrawnOut) {
   }
 }
 
-// A force across at the middle bends each half by x times it: the integral of 12 x^2/(E b h^3), here by Simpson's rule, and shear.
+// A transverse force at the middle bends each half by x times it: the integral of 12 x^2/(E b h^3), here by Simpson's rule, plus shear.
 TEST(NotchHinge, GivesAcrossByBendingAndShear) {
   const double t = 1e-3, R = 5e-3;
   constexpr int kParts = 20000;
@@ -56,7 +56,7 @@ TEST(NotchHinge, GivesAcrossByBendingAndShear) {
   EXPECT_NEAR(compliance_of(notch(t, R, R)).transverse, sum / (kAluminium * kNeckWidth) + 1.2 * thin / (kAluminium / 2.66 * kNeckWidth), 1e-9 * sum / (kAluminium * kNeckWidth));
 }
 
-// R. E. Peterson's factor of two deep notches in bending, as S. T. Smith, Flexures (2000) prints it for these hinges: (2.7 t + 5.4 R)/(8 R + t) + 0.325.
+// R. E. Peterson's factor for two deep notches in bending, as S. T. Smith, Flexures (2000) prints it for these hinges: (2.7 t + 5.4 R)/(8 R + t) + 0.325.
 TEST(NotchHinge, ConcentratesStressAsPetersonSays) {
   for (const double t : {1e-4, 1e-3, 5e-3}) {
     const double R = 5e-3, k = NotchHingeLaw::of(notch(t, R, R), 0).stress_by_moment / (6 / (kNeckWidth * t * t));
@@ -93,14 +93,14 @@ TEST(Pivots, DoNotKnowWhichEndIsFirst) {
   }
 }
 
-// J. A. Haringx (1949), W. H. Wittrick (Aeronautical Quarterly 1951): turning takes 8 E I/L (1 - 3 c + 3 c^2) of both blades together, where c is the
-// part up to the crossing; 2 E I/L when they cross in the middle.
+// J. A. Haringx (1949), W. H. Wittrick (Aeronautical Quarterly 1951): the rotational stiffness of both blades together is 8 E I/L (1 - 3 c + 3 c^2),
+// where c is the fraction up to the crossing; 2 E I/L if they cross in the middle.
 TEST(CrossSpring, HasTheStiffnessOfHaringxAndWittrick) {
   const double L = 0.05, b = 0.008, t = 4e-4, E = 207e9, EI = E * b * t * t * t / 12;
   for (const double c : {0.0, 0.1273, 0.5, 0.8})
     for (const double angle : {0.5 * kPi, 0.3 * kPi}) {
       const Law pivot = made("cross-spring", {{"length", {L}}, {"width", {b}}, {"thickness", {t}}, {"crossing", {c}}, {"crossing_angle", {angle}}});
-      // Without a force: the point of the second body that was at the crossing may move.
+      // Without a force: the point of the second body that was at the crossing is free to move.
       const Mat K = tangents(pivot, Vec::Zero()).stiffness;
       const double held = K(2, 2), free = 1 / K.inverse()(2, 2);
       EXPECT_NEAR(held, 8 * EI / L * (1 - 3 * c + 3 * c * c), 1e-10 * held);
@@ -111,8 +111,8 @@ TEST(CrossSpring, HasTheStiffnessOfHaringxAndWittrick) {
     }
 }
 
-// Turned by a moment alone, the crossing moves along the bisector by L angle^2/(12 cos(half of the crossing angle)), to second order: sqrt(2)/12 L angle^2 of
-// blades at right angles (J. A. Haringx; B. D. Jensen and L. L. Howell, Mechanism and Machine Theory 37 (2002) 461-476 plot it).
+// Turned by a moment alone, the crossing moves along the bisector by L angle^2/(12 cos(half of the crossing angle)), to second order: sqrt(2)/12 L angle^2
+// for blades at right angles (J. A. Haringx; plotted by B. D. Jensen and L. L. Howell, Mechanism and Machine Theory 37 (2002) 461-476).
 TEST(CrossSpring, ShiftsItsCentre) {
   const double L = 0.05, t = 1e-4;
   for (const double crossing : {0.5 * kPi, 0.25 * kPi}) {
@@ -130,7 +130,7 @@ TEST(CrossSpring, ShiftsItsCentre) {
   }
 }
 
-// Work of the pull on the shift of the centre, (4.4): a pull apart along the bisector takes F L/(6 cos(half of the crossing angle)) off the stiffness.
+// Work of the pull on the shift of the centre, (4.4): a separating pull F along the bisector reduces the stiffness by F L/(6 cos(half of the crossing angle)).
 TEST(CrossSpring, IsSofterWhenPulledApart) {
   const double L = 0.05, EI = 207e9 * 0.01 * 1e-12 / 12;
   const Law pivot = made("cross-spring", {{"length", {L}}, {"width", {0.01}}, {"thickness", {1e-4}}});

@@ -3,8 +3,8 @@
 //
 //   F = N (mu_k tanh(4 v/v_t) + (mu_s - mu_k) (v/v_t) / ((v/v_t)^2/4 + 3/4)^2 + mu_v v)          theory/joints Eq. (3.17)
 //
-// It is largest at v = v_t, where it is N mu_s (to 7e-4 of mu_k). It carries no load at rest: below v_t the joint creeps. That is its
-// design. The paper's viscous term does not grow with the load; here it does, as in the other laws.
+// It is largest at v = v_t, where it is N mu_s (to 7e-4 of mu_k). It carries no load at rest: below v_t the joint creeps, by design.
+// The paper's viscous term does not grow with the load; here it does, as in the other laws.
 #pragma once
 
 #include "laws/friction/friction.h"

@@ -1,5 +1,5 @@
-// Dry friction with stiction of what a joint leaves free. As everywhere here a stuck joint is no constraint but a direction held by a force law, which
-// makes the forces of several of them unique.
+// Dry friction with stiction in the free directions of a joint. As everywhere here, a stuck joint is not a constraint but a direction held by a force
+// law, which makes the forces of several stuck joints unique.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace pintle {
 
 struct CoulombLaw : Friction {
   static constexpr std::string_view kWord = "coulomb";
-  double stiffness = 1e8, damping = 3e3;  // of what holds while it sticks [N/m], [N*s/m]
-  int starts_to_slip = 0;                 // the way in which it slips from the start; 0: at rest it sticks
+  double stiffness = 1e8, damping = 3e3;  // of the spring and damper that hold while it sticks [N/m], [N*s/m]
+  int starts_to_slip = 0;                 // direction in which it slips from the start; 0: at rest it sticks
 
   static CoulombLaw typical() { return {}; }
 
@@ -28,7 +28,7 @@ struct CoulombLaw : Friction {
     out.loss = f.loss;
   }
   void rest(const LawInput<double>& in, double* state) const { surfaces().rest(slip(in), starts_to_slip, state); }
-  /// Of pins and slides: bodies that roll on each other are not held by what sticks between them.
+  /// For pins and slides: bodies that roll on each other are not held by stiction between them.
   std::optional<Stiction> stiction(const double* state) const {
     if (normal > 0 || !StickSlip::sticks(state)) return {};
     return Stiction{free, radius * radius * stiffness};

@@ -1,4 +1,4 @@
-// The catalog's entries of dry friction.
+// The catalog's entries for dry friction.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace pintle {
 namespace {
 
-// Of friction by any law.
+// Keys of friction by any law.
 constexpr KeyInfo kKinetic{.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"};
 constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .minimum_exclusive = true, .otherwise = "0.15, or friction_coefficient where that is more", .meaning = "coefficient at which slip begins; not below the kinetic one"};
 constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .minimum_exclusive = true, .otherwise = "required of a pin", .meaning = "where a pin rubs; of no other joint"};
@@ -57,12 +57,12 @@ constexpr std::array<std::string_view, 8> kRubbing{"revolute", "prismatic", "slo
 
 bool has_surfaces(const LawSetting& at) { return at.joint_type == "cam" || at.joint_type == "edge"; }
 bool has_teeth(const LawSetting& at) { return at.joint_type == "gear" || at.joint_type == "rack"; }
-// Turns and does not slide.
+// Turns but does not slide.
 bool is_pin(const LawSetting& at) { return at.free[2] && !at.free[0]; }
 
 // The coefficient at which slip begins.
 double static_friction(const LawSetting& at) {
-  constexpr double kUsual = 0.15;  // where neither coefficient is stated, or the kinetic one is less
+  constexpr double kUsual = 0.15;  // if neither coefficient is stated, or the kinetic one is smaller
   const double stated = at.number("static_friction");
   return stated > 0 ? stated : std::max(kUsual, at.number("friction_coefficient"));
 }
@@ -81,7 +81,7 @@ LawFault friction_fault(const LawSetting& at) {
   return {};
 }
 
-// What its law has in common with others.
+// The settings that all friction laws have in common.
 void set_friction(const LawSetting& at, Friction& friction) {
   const bool pin = is_pin(at), teeth = has_teeth(at);
   friction.free = pin || teeth ? 2 : has_surfaces(at) ? 1 : 0;

@@ -1,4 +1,4 @@
-// Friction laws: values by hand, what presses, what is refused.
+// Friction laws: values by hand, normal loads, refused values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using Vec = Planar::Vec;
 
-// A slide on a spring that gives the reaction, at the speed v along it.
+// A slide on a spring that provides the reaction, at the speed v along it.
 template <class P>
 double friction_law_force(P law, const Vec& reaction, double v) {
   law.free = 0;
@@ -35,7 +35,7 @@ TEST(BrownMcPheeLaw, ByHand) {
   BrownMcPheeLaw law;
   law.viscous = 2;
   const Vec pressed(0, 100, 0);
-  // The second term is 1 at v_t and 2 / 1.75^2 at twice that; the viscous one 0.002 and 0.004 of the load.
+  // The second term is 1 at v_t and 2 / 1.75^2 at twice that; the viscous one is 0.002 and 0.004 of the load.
   EXPECT_NEAR(friction_law_force(law, pressed, 1e-3), -100 * (0.1 * std::tanh(4.0) + 0.05 + 0.002), 1e-12);
   EXPECT_NEAR(friction_law_force(law, pressed, -2e-3), 100 * (0.1 * std::tanh(8.0) + 0.05 * 0.65306122448979592 + 0.004), 1e-12);
   EXPECT_NEAR(friction_law_force(law, pressed, 10), -100 * (0.1 + 20), 1e-9 * 2000);
@@ -50,8 +50,8 @@ TEST(StribeckLaw, ByHand) {
   EXPECT_NEAR(friction_law_force(law, pressed, 1), -10, 1e-12);
 }
 
-// A slide that is pressed by 100 N: it breaks at 15 N, a stretch of 150 um, and slips with 10 N. Where it turns round it sticks, and friction is
-// what it was.
+// A slide with a normal load of 100 N: it breaks at 15 N, a stretch of 150 um, and slips with 10 N. Where the slip reverses it sticks, with
+// continuous friction.
 TEST(CoulombLaw, SticksBreaksAndSticksAgain) {
   CoulombLaw law;
   law.free = 0;
@@ -95,11 +95,11 @@ TEST(CoulombLaw, SticksBreaksAndSticksAgain) {
   EXPECT_TRUE(crosses(back));
   EXPECT_NEAR(joint.force(at(back))[0], -10, 1e-9);
   EXPECT_NEAR(state[0], 100e-6, 1e-12);
-  EXPECT_NEAR(lost, 0.5 * 1e5 * (151e-6 * 151e-6 - state[0] * state[0]), 1e-12);  // the spring's, which broke and sticks again
+  EXPECT_NEAR(lost, 0.5 * 1e5 * (151e-6 * 151e-6 - state[0] * state[0]), 1e-12);  // energy of the spring, which broke and sticks again
 }
 
-// Loaded to 12 N by its spring, on its way back at 2 mm/s as what presses it falls to 60 N, which hold 9 N and rub with 6 N: it goes on being pushed back, by the kinetic friction,
-// and holds again when the spring has come down to that.
+// Loaded to 12 N by its spring, moving back at 2 mm/s while the normal load falls to 60 N, which holds 9 N and gives 6 N of kinetic friction: it continues to be pushed back, by
+// the kinetic friction, and sticks again when the spring force has fallen to that.
 TEST(StickSlip, AFrictionThatBreaksOnTheWayBackRebounds) {
   const StickSlip surfaces{0.1, 0.15, 0, 1e5, 0};
   double state[StickSlip::kStates] = {120e-6, 0}, border[StickSlip::kBorders];
@@ -111,7 +111,7 @@ TEST(StickSlip, AFrictionThatBreaksOnTheWayBackRebounds) {
   EXPECT_NEAR(f.friction, 6, 1e-12);
   EXPECT_EQ(f.stretch_rate, back);
   EXPECT_NEAR(f.energy, 0.5 * 1e5 * 120e-6 * 120e-6, 1e-15);
-  EXPECT_NEAR(f.loss, 2e-3 * (12 - 6), 1e-12);  // the spring gives 24 mW, of which 12 drive the bodies
+  EXPECT_NEAR(f.loss, 2e-3 * (12 - 6), 1e-12);  // the spring gives 24 mW, of which 12 mW drive the bodies
   surfaces.borders(back, N, state, border);
   EXPECT_NEAR(border[1], 6, 1e-9);
   EXPECT_GT(border[2], 0);
@@ -123,7 +123,7 @@ TEST(StickSlip, AFrictionThatBreaksOnTheWayBackRebounds) {
   EXPECT_EQ(state[0], 59.9e-6);
 }
 
-// Where nothing presses they do not hold again: stuck beyond what they carry, no border would ever let them go.
+// Without a normal load they do not stick again: stuck with more than they can carry, no border would ever release them.
 TEST(StickSlip, WhatReboundsUnderNoLoadSlipsOn) {
   const StickSlip surfaces{0.1, 0.15, 0, 1e8, 3e3};
   double state[StickSlip::kStates] = {-1.08e-11, -2}, border[StickSlip::kBorders];
@@ -134,7 +134,7 @@ TEST(StickSlip, WhatReboundsUnderNoLoadSlipsOn) {
   EXPECT_GT(*std::min_element(border, border + StickSlip::kBorders), 0);
 }
 
-// It may turn forward before that, and slips as any other.
+// It may turn forward before that, and then slips like any other.
 TEST(StickSlip, WhatReboundsMayTurnForward) {
   const StickSlip surfaces{0.1, 0.15, 0, 1e5, 0};
   double state[StickSlip::kStates] = {-120e-6, 0}, border[StickSlip::kBorders];
@@ -149,7 +149,7 @@ TEST(StickSlip, WhatReboundsMayTurnForward) {
   EXPECT_NEAR(f.loss, 0.6, 1e-12);
 }
 
-// A start has slow slips that mean nothing: the damper of what sticks would push, on surfaces on which nothing presses, by more than they carry.
+// At a start slow slips have no meaning: without a normal load, the damper of a stuck joint would push by more than the surfaces can carry.
 TEST(Coulomb, BeginsWithoutFrictionWhereNothingPresses) {
   CoulombLaw law;
   law.free = 0;
@@ -165,7 +165,7 @@ TEST(Coulomb, BeginsWithoutFrictionWhereNothingPresses) {
   EXPECT_GT(border[0], 0);
 }
 
-// 100 N across a guide of 50 mm: a moment below 2.5 N m leaves both edges on one side, 10 N m press them with 200 N each.
+// 100 N across a guide of 50 mm: a moment below 2.5 N m leaves both edges loaded on the same side, 10 N m load them with 200 N each.
 TEST(Friction, MomentPressesTheEdgesOfAGuide) {
   StribeckLaw law;
   for (const double moment : {0.0, 2.4, -2.4, 10.0, -10.0}) {

@@ -1,12 +1,12 @@
-// Dry friction of what a joint leaves free, by the LuGre model, pressed by the joint's own reaction. C. Canudas de Wit, H. Olsson, K. J.
-// Astrom, P. Lischinsky, A new model for control of systems with friction, IEEE Trans. Automatic Control 40 (1995) 419-425.
+// Dry friction in the free directions of a joint, by the LuGre model, with the joint's own reaction as the normal load. C. Canudas de Wit,
+// H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems with friction, IEEE Trans. Automatic Control 40 (1995) 419-425.
 //
 //   z' = v - s_0 |v| / mu(v) z,                   mu(v) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2)     theory/joints Eq. (3.12)
 //   F = N (s_0 z + s_1 z' + s_2 v)                against the slip, on the second body               Eq. (3.13)
 //
-// z is the deflection of the bristles [m], s_0 their stiffness per unit of load [1/m]: with the stiffness in N/m, z would grow beyond
-// bounds where the load vanishes. Steady slip gives F = N mu(v), a load that does not slip is carried by s_0 N z. The work of the
-// bristles is counted as lost, and as regained where they spring back, because their energy changes with the load.
+// z is the deflection of the bristles [m], s_0 their stiffness per unit of load [1/m]: with the stiffness in N/m, z would grow
+// without bound where the load vanishes. Steady slip gives F = N mu(v); at rest a load is carried by s_0 N z. The work of the
+// bristles counts as lost, and as regained where they spring back, because their energy changes with the load.
 #pragma once
 
 #include <algorithm>
@@ -34,16 +34,16 @@ struct LuGreLaw : Friction {
     out.state_rate[0] = v - bristle_stiffness * divide(abs(v), coefficient(v)) * z;                               // (3.12)
     rub(load(in) * (bristle_stiffness * z + bristle_damping * out.state_rate[0] + viscous * v), v, out);          // (3.13)
   }
-  /// The deflection of steady slip, below the Stribeck speed in proportion to the speed: at a start, speeds are not quite zero where they should be. Bristles of a
-  /// joint at rest carry nothing until set_stuck.
+  /// The deflection in steady slip, below the Stribeck speed in proportion to the speed: at a start, speeds that should be zero are not quite zero. The bristles
+  /// of a joint at rest carry nothing until set_stuck.
   void rest(const LawInput<double>& in, double* state) const {
     const double v = slip(in);
     state[0] = v / std::max(std::abs(v), stribeck) * coefficient(v) / bristle_stiffness;
   }
-  /// Of pins and slides that are at rest, as in CoulombLaw. Bristles that cannot hold their joint stay as rest() has them.
+  /// For pins and slides at rest, as in CoulombLaw. Bristles that cannot hold their joint stay as set by rest().
   std::optional<Stiction> stiction(const double* state) const {
     if (normal > 0 || bristle_stiffness * std::abs(state[0]) >= kStill * static_coefficient) return {};
-    return Stiction{free, radius * radius * StickSlip{}.stiffness};  // it finds the load; the bristles are given that, not its stretch
+    return Stiction{free, radius * radius * StickSlip{}.stiffness};  // this stiffness serves to find the load; the bristles then receive the load, not the stretch
   }
   bool set_stuck(const LawInput<double>& in, double force, double* state) const {
     const double friction = -force / radius, N = load(in);
@@ -53,15 +53,15 @@ struct LuGreLaw : Friction {
   }
 
   std::span<const LawColumn> columns() const { return columns_with_mode(); }
-  /// Bristles that could bend farther at this speed stick.
+  /// Bristles that could bend farther at this speed count as sticking.
   void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const {
     Friction::observe(in, force, value);
     value[2] = bristle_stiffness * std::abs(in.state[0]) < kBent * coefficient(slip(in)) ? 1 : 0;
   }
 
  private:
-  static constexpr double kBent = 0.999;  // of the deflection of steady slip: bristles that are bent so far slip
-  static constexpr double kStill = 1e-3;  // of the largest deflection: bristles that are bent no farther are those of a joint at rest
+  static constexpr double kBent = 0.999;  // as a fraction of the deflection in steady slip: bristles bent this far slip
+  static constexpr double kStill = 1e-3;  // as a fraction of the largest deflection: bristles bent no farther are those of a joint at rest
 
   template <class T>
   T coefficient(const T& v) const { return stribeck_coefficient(v, stribeck); }

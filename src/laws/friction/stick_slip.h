@@ -1,16 +1,16 @@
 // Coulomb's dry friction with stiction along one line: surfaces stick, held by a spring and a damper, until friction cannot carry their load, and then
-// slip against the kinetic friction. Where they change over is a border, on which steps end.
+// slip against the kinetic friction. Each transition is a border, at which steps end.
 //
 //   sticking:  F = k_t z + c_t v,   z' = v     until |F| > mu_s N                         theory/joints Eq. (3.18)
 //   slipping:  F = s mu_k N + mu_v N v         until s v < 0, s = +1 or -1                Eq. (3.19)
 //   rebounding: F = s mu_k N + mu_v N v, z' = v   until s F_sticking < mu_k N, or s v > 0      Eq. (3.23)
 //
-// A friction that breaks because N falls may break while the spring drives the bodies back, s v < 0: the surfaces slip by what the spring loses more than the
-// bodies go back, and hold again when it has come down to the friction.
+// When N falls, friction may break while the spring drives the bodies back, s v < 0. The surfaces then slip by the spring's loss of stretch beyond the
+// bodies' return, and stick again when the spring force has fallen to the friction.
 //
-// v is the slip, N what presses, F acts against the slip. The states are the stretch z of the spring [m] and the mode s, 0 while they stick and 2 s while they
-// rebound, which changes at borders only. z is integrated: as a difference of places of the size of a metre its rounding, times k_t, is a noise in the force that steps
-// are refused for. Slip goes the way of the friction that broke; sticking begins where friction is continuous,
+// v is the slip, N the normal load; F opposes the slip. The states are the stretch z of the spring [m] and the mode s, 0 while the surfaces stick and 2 s while they
+// rebound, which changes at borders only. z is integrated: as a difference of positions of the order of a metre it would have rounding that, times k_t, is noise in the
+// force for which steps are rejected. Slip goes in the direction of the friction that broke; sticking begins where friction is continuous,
 //   z = (F - c_t v) / k_t.                                                                Eq. (3.20)
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace pintle {
 
-/// The friction, against the slip; what the spring stores, and what is lost beside it.
+/// The friction, opposing the slip; the energy stored by the spring, and the remaining power, which is lost.
 template <class T>
 struct StickSlipForce {
   T friction, stretch_rate, energy, loss;  // [N], [m/s], [J], [W]
@@ -31,12 +31,12 @@ struct StickSlipForce {
 
 struct StickSlip {
   static constexpr int kStates = 2, kBorders = 3;
-  static constexpr double kStill = 1e-6;  // a slip that counts as none [m/s]
+  static constexpr double kStill = 1e-6;  // a slip speed below which surfaces count as at rest [m/s]
   double kinetic = 0.1, static_coefficient = 0.15;     // mu_k, mu_s [-]
   double viscous = 0;                     // mu_v [s/m]
   double stiffness = 1e8, damping = 1e5;  // k_t [N/m], c_t [N*s/m]
 
-  /// What the spring has stored is lost where they slip again, and given where they stick.
+  /// The stored energy of the spring is lost when the surfaces slip again, and supplied when they stick.
   template <class T>
   StickSlipForce<T> force(const T& v, const T& N, const T* state) const {
     using namespace law_math;
@@ -50,13 +50,13 @@ struct StickSlip {
     return f;
   }
   static bool sticks(const double* state) { return state[1] == 0; }
-  /// Slipping, or at rest in the mode given. Slow speeds of a start have no meaning: what sticks begins without friction, which surfaces on which nothing
-  /// presses could not carry.
+  /// Slipping, or at rest in the given mode. Slow speeds at a start have no meaning: surfaces that stick begin without friction, which could not be
+  /// carried without a normal load.
   void rest(double v, int mode_at_rest, double* state) const {
     state[1] = std::abs(v) < kStill ? mode_at_rest : v > 0 ? 1 : -1;
     state[0] = state[1] == 0 ? -damping * v / stiffness : 0;
   }
-  /// Stuck under a friction; false where they cannot carry it.
+  /// Sets them stuck under a friction; false if they cannot carry it.
   bool set_stuck(double friction, double N, double* state) const {
     if (!(std::abs(friction) < static_coefficient * N)) return false;
     state[0] = friction / stiffness;
@@ -64,12 +64,12 @@ struct StickSlip {
     return true;
   }
 
-  /// What still holds; how far slip is from its end, or the spring of surfaces that rebound from the friction; how far these are from a slip forward.
+  /// Friction still in reserve; how far slip is from its end, or the spring of rebounding surfaces from the friction; how far these are from slipping forward.
   void borders(double v, double N, const double* state, double* value) const {
     const double way = direction(state), forward = way * v;
     value[0] = value[1] = value[2] = 1;
     if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + friction_rounding_at_rest();
-    else if (!rebounds(state)) value[1] = N > 0 ? forward + kCrossed : 1;  // where nothing presses nothing would hold them
+    else if (!rebounds(state)) value[1] = N > 0 ? forward + kCrossed : 1;  // without a normal load nothing would hold them
     else {
       value[1] = way * held(v, state) - kinetic * N;
       value[2] = kCrossed - forward;
@@ -77,7 +77,7 @@ struct StickSlip {
   }
   static constexpr std::array<int, kBorders> kDirections{-1, -1, -1};
   static constexpr std::string_view border_name(int border) { return border == 1 ? "sticks" : "slips"; }
-  /// Both ends of a slip may lie in one interval of time; the second one finds surfaces that stick.
+  /// Both ends of a slip may lie in one time interval; the second then finds surfaces that stick.
   void cross(int border, double v, double N, double* state) const {
     if (border == 0) {
       const double way = held(v, state) > 0 ? 1 : -1;
@@ -91,20 +91,20 @@ struct StickSlip {
     }
     if (!rebounds(state)) state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
     state[1] = 0;
-    if (breaks(v, N, state)) state[1] = v > 0 ? 1 : -1;  // what presses has gone before they stick
+    if (breaks(v, N, state)) state[1] = v > 0 ? 1 : -1;  // the normal load vanished before they stuck
   }
 
  private:
-  // Of a friction that rest() has made zero [N]: surfaces on which nothing presses stick until something pulls.
+  // Rounding of a friction that rest() has set to zero [N]: surfaces without a normal load stick until something pulls.
   double friction_rounding_at_rest() const { return std::numeric_limits<double>::min() + 4 * std::numeric_limits<double>::epsilon() * kStill * damping; }
-  // By more than rounding.
+  // Whether the friction exceeds what they carry by more than rounding.
   bool breaks(double v, double N, const double* state) const {
     const double carried = static_coefficient * N;
     return std::abs(held(v, state)) > carried + 4 * std::numeric_limits<double>::epsilon() * carried + friction_rounding_at_rest();
   }
   static bool rebounds(const double* state) { return std::abs(state[1]) > 1.5; }
   static double direction(const double* state) { return state[1] > 0 ? 1 : -1; }
-  static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
+  static constexpr double kCrossed = 1e-12;   // below this a speed is the rounding of zero [m/s]
 
   template <class T>
   T held(const T& v, const T* state) const { return stiffness * state[0] + damping * v; }  // (3.18)

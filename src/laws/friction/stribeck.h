@@ -1,10 +1,10 @@
-// Coulomb's friction made smooth at rest, with Stribeck's drop from static to kinetic: a function of the slip speed alone, without
+// Coulomb friction made smooth at rest, with Stribeck's drop from static to kinetic: a function of the slip speed alone, without
 // states. S. Andersson, A. Soderberg, S. Bjorklund, Friction models for sliding dry, boundary and mixed lubricated contacts, Tribology
 // International 40 (2007) 580-587.
 //
 //   F = N (mu(v) tanh(v / v_t) + mu_v v),     mu(v) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^2)     theory/joints Eqs. (3.16), (3.12)
 //
-// It carries no load at rest: under a load below N mu_s the joint creeps, at v_t artanh(load / (N mu_s)) or slower. That is its design.
+// It carries no load at rest: under a load below N mu_s the joint creeps, at v_t artanh(load / (N mu_s)) or slower, by design.
 #pragma once
 
 #include "laws/friction/friction.h"
