@@ -10,6 +10,7 @@ measurement that is stopped goes on where it was. What is not scaled, and why, s
     tools/constants.py --build              # the copy and its program
     tools/constants.py --seconds 500        # measures for so long: again and again, until it says that all are done
     tools/constants.py --write              # docs/theory/constants.md
+    tools/constants.py --meanings           # the same page with the meanings of today's comments and its measurements as they are
 """
 import argparse
 import collections
@@ -381,6 +382,7 @@ def main():
     options.add_argument("--build", action="store_true", help="the copy and its program")
     options.add_argument("--seconds", type=float, help="measure for so long")
     options.add_argument("--jobs", type=int, default=1, help="runs at a time")
+    options.add_argument("--meanings", action="store_true", help="update the meanings in docs/theory/constants.md from the comments")
     options.add_argument("--write", action="store_true", help="write docs/theory/constants.md")
     options = options.parse_args()
     if options.list:
@@ -391,6 +393,9 @@ def main():
         build()
     if options.seconds is not None and not measure(options.seconds, options.jobs):
         sys.exit(2)
+    if options.meanings:
+        entries = unmeasured()
+        PAGE.write_text(constants_page.with_meanings(PAGE.read_text(), [c for c in constants_of(ROOT) if not why_not(c, entries)]))
     if options.write:
         entries, everything = unmeasured(), constants_of(ROOT)
         measured = [c for c in everything if not why_not(c, entries)]

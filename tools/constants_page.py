@@ -124,6 +124,18 @@ def page(measured, skipped, rows, runs, noise):
     return "\n".join(out) + "\n"
 
 
+def with_meanings(text, measured):
+    """The page with the meanings of the constants as the sources have them now; its measurements stay."""
+    meanings = {named(c): sentence(c.comment) for c in measured}
+    lines = []
+    for line in text.split("\n"):
+        cells = line.split(" | ")
+        if len(cells) == 10 and cells[0].removeprefix("| ") in meanings:
+            cells[2] = meanings[cells[0].removeprefix("| ")]
+        lines.append(" | ".join(cells))
+    return "\n".join(lines)
+
+
 def how_to_read(runs, usual, noise):
     worst = max((row for row in usual.values() if promises(row)), key=lambda row: row.true, default=None)
     out = ["- *Steps* and *evaluations* are of all passes of a run together; a column has the change of their geometric mean over the runs, so that each run counts alike.",
