@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-// As a fraction of the mechanism's size: a joint that deflects by more is torn, unless the weight of the whole mechanism alone deflects it by this fraction of that: softer joints
+// As a fraction of the mechanism's size: a joint that deflects by more is torn, if the weight of the whole mechanism alone deflects it by less than this fraction of that; softer joints
 // are meant to deflect. No stiff joint of the collection deflects by a twentieth of it; with double the value a rod that is shorter than its crank by a tenth is not reported.
 constexpr double kTorn = 0.02;
 

@@ -196,7 +196,7 @@ void BasicLoadRecorder<S>::add_samples(double t0, double h, bool resolved) {
   for (CurveSums& sums : signal_) add_load<1, Sums::kWithSign>(at++, t0, h, resolved, sums);
 }
 
-// What turns far, or turns round, is divided more finely than the samples.
+// Where a contact turns far, or reverses, the step is divided more finely than by the samples.
 template <class S>
 void BasicLoadRecorder<S>::add_wear(BasicStepper<S>& stepper, double t0, double t1) {
   const int parts = wear_.finer_parts(grid_);
@@ -211,7 +211,7 @@ LoadStatistics BasicLoadRecorder<S>::over_run(const CurveSums& sums) const {
   return {sums.peak, sums.peak_time, share * sums.integral, std::sqrt(share * sums.square)};
 }
 
-// The force on the second body drives the gap; what it takes out and does not store is lost.
+// The force on the second body drives the gap; what the joint takes up and does not store is lost.
 template <class S>
 double BasicLoadRecorder<S>::heat(int joint, const BasicState<S>& state) const {
   const std::size_t j = static_cast<std::size_t>(joint);
