@@ -51,7 +51,7 @@ class Batch {
   explicit Batch(const BatchPlan& plan);
   ~Batch();
 
-  /// Whether the plan can serve this variant at all.
+  /// Whether the plan is suitable for this variant at all.
   bool accepts(const Model& variant) const;
   /// Assembles a variant into a lane. Returns false if it is not suitable for a batch. Throws AssemblyError.
   bool put(int lane, const Model& variant);

@@ -15,7 +15,7 @@
 
 namespace pintle {
 
-/// One variant: the base model with other numbers in it. Names, types and their order are the base's.
+/// One variant: the base model with other numbers in it. Names, types and their order are those of the base.
 struct Variant {
   Model model;
   bool checked = true;  ///< its errors are estimated and the tolerance is met, as by `simulate`; otherwise one integration

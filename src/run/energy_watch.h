@@ -30,7 +30,7 @@ class BasicEnergyWatch {
   Alarm see_end(const BasicState<S>& state);
   /// Names the element that has fed the motion far more than the mechanism stores by itself; empty if there is none.
   std::string note_on_feeder() const;
-  /// What the last alarm was about.
+  /// Describes the last alarm.
   const std::string& message() const { return message_; }
 
  private:
@@ -53,11 +53,11 @@ class BasicEnergyWatch {
   const BasicSystem<S>& system_;
   double duration_, tolerance_;
   bool exact_work_;
-  double storable_ = 0;                  // Eq. (8.3): stored at the start, or by its weights over its size [J]
+  double storable_ = 0;                  // Eq. (8.3): stored at the start, and by its weights over its size [J]
   double total_ = 0, potential_ = 0;     // at the start [J]
   double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of potential energy [J]
   double kinetic_ = 0, exchanged_ = 0;   // at the last step; sum of the absolute changes [J]
-  double expected_ = 0;                  // turnover [J]
+  double expected_ = 0;                  // turnover of an earlier integration [J]
   double throughput_ = 0;                // absolute work of all supplies and losses [J]
   double flow_ = 0;                      // its rate at the last step [W]
   double missing_ = 0;                   // error of the account when last judged [J]

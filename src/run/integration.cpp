@@ -57,7 +57,7 @@ std::vector<double> stops_at_bends(const BasicSystem<S>& system, double from, do
   return stops;
 }
 
-// The longest step of methods that do not watch what they pass, where a load depends on positions: a pulse there may be this short [s].
+// The longest step [s] of methods that do not watch what they pass, if a load depends on positions: its pulses may be no longer than this.
 template <class S>
 double longest_step(const BasicSystem<S>& system, double duration, double wanted) {
   constexpr double kLooks = 500;  // steps per run, at least

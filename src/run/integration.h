@@ -37,7 +37,7 @@ struct BasicIntegration {
   Counters counters;
   BasicLoadScale<S> scale;
   std::vector<LawCrossing> crossings;  // of the borders of laws
-  std::vector<std::string> remarks;  // what the method noticed
+  std::vector<std::string> remarks;  // of the method, for the notes
   int sliding_load = -1;                // Stepper::sliding_load
   double unbounded_reactions = -1;   // Stepper::unbounded_reactions
 };

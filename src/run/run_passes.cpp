@@ -103,7 +103,7 @@ class Passes {
   bool run_closed_pass(double& tolerance) {
     bool complete = run_pass(tolerance);
     for (; interrupted_.first == Ended::kEnergyOpen && open_ < kMostOpen && tolerance > kLeastTolerance; ++open_) {
-      if (last_.ended == Ended::kEnergyOpen) {  // it was the first, and its loads are no measure for the next
+      if (last_.ended == Ended::kEnergyOpen) {  // it was the first, and its loads are no scale for the next
         fine_.reset();
         last_.scale = {};
       }

@@ -141,7 +141,7 @@ bool AlphaStepper::solve(double h) {
   return solved && (!constraints_ || constraints_->project(begin_.t + h, q_, v_, a_));
 }
 
-// In units of the tolerance.
+// The estimated error of the step, in units of the tolerance.
 double AlphaStepper::error(double h) {
   double worst = 0, sum = 0;
   for (std::size_t i = 0; i < a_.size(); ++i)

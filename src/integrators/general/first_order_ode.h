@@ -14,10 +14,10 @@ class FirstOrderOde {
   FirstOrderOde(const System& system, Energies energies);
 
   const System& system() const { return system_; }
-  /// Length of y; of its part (q, v).
+  /// Length of y, and of its part (q, v).
   int size() const { return state_size() + (energies_ ? 2 : 0); }
   int motion_size() const { return 6 * system_.n_bodies(); }
-  /// Of (q, v, z).
+  /// Length of (q, v, z).
   int state_size() const { return motion_size() + system_.n_law_states(); }
   void flatten(const State& state, double* y) const;
   /// Fills in time, q, v and, if y has them, the energies of `state`; the rest is unchanged.

@@ -114,7 +114,7 @@ bool IdealStepper::step(double t_end) {
       continue;
     }
     const double end = end_of_step(begin_.t, h, stop);
-    if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // up to there, and no farther
+    if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // end the step there
       if (jump->t <= begin_.t + 16 * rounding) {
         failure_ = jump_text(*jump, system_.joints[static_cast<std::size_t>(jump->joint)]);
         return false;

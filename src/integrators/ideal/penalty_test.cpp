@@ -156,7 +156,7 @@ Error augmented_error(const Model& model, const State& truth, const AlphaWeights
   return {distance(stepper.state(), truth), distance(iteration, truth)};
 }
 
-// The same in relative coordinates; forces alone.
+// The same in relative coordinates; for the forces only.
 double relative_error(const Model& model, const State& truth, const AlphaWeights& weights, double h) {
   const System system = ideal_system(model);
   TreeAugmented stepper(system, weights, 1e6);

@@ -40,7 +40,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
 
  private:
   static constexpr bool kEveryJointIsALaw = false;  // joints of the tree have reactions instead
-  friend class StepControl;  // which calls what follows, up to finish_step
+  friend class StepControl;  // which calls the functions from here to finish_step
   double t() const { return begin_.t; }
   void begin_at_end();
   bool attempt(double h);

@@ -29,7 +29,7 @@ LoadStatistics of_rows(const BasicForceTable<S>& forces, std::size_t joints, std
   return out;
 }
 
-// Rows miss impacts between them, in the same ratio before and after a horizon; the peak of the whole run is known.
+// Rows miss impacts between them, as is assumed in the same ratio before and after a horizon; the peak of the whole run is known.
 template <class S>
 LoadStatistics after(const BasicForceRecorder<S>& pass, std::size_t joints, std::size_t j, double from) {
   LoadStatistics out = of_rows(pass.forces(), joints, j, from);

@@ -85,7 +85,7 @@ DifferenceCurve force_difference_curve(const BasicSystem<S>& system, const Basic
 template <class S>
 DifferenceCurve motion_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine);
 
-/// For each joint the last time [s] at which a run that ends there has `share` times its difference within `tolerance` of its peak.
+/// For each joint the last time [s] such that in a run that ends there `share` times its difference is within `tolerance` of its peak.
 /// theory/time Eq. (6.10).
 template <class S>
 std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double tolerance);
