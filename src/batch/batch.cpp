@@ -19,11 +19,11 @@ namespace {
 // Peaks are more accurate than the error estimate of steps: steps of the base are tried with far more than the tolerance, then tightened.
 constexpr double kLoosest = 1000;                 // multiple of the tolerance with which steps are tried first
 constexpr double kTighten = 3.1622776601683795;  // factor from one try to the next
-constexpr double kShare = 0.1;                    // fraction of the tolerance by which the base's peaks may differ from those of its own run
+constexpr double kShare = 0.1;                    // of the tolerance: largest deviation of the base's peaks from those of its own run
 constexpr double kWorse = 4;                      // upper limit on the errors of a variant's steps, as a multiple of those of the base
 constexpr double kOfNewton = 0.2;  // ratio of the tolerance of iterations to that of steps
-constexpr int kMostIterations = 10;  // upper limit in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
-constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // factors tried for how much slower the base's joints could be before one counts as soft
+constexpr int kMostIterations = 10;  // limit in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
+constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // factors tried by which the base's joints could be slower before one is soft
 constexpr double kUnsettled = 0.01;  // upper limit, as a fraction of the tolerance, on what another sweep would change at the start
 constexpr double kWellSettled = 0.2;  // fraction of that limit, for the base
 constexpr int kFewestSweeps = 2, kMostSweeps = 4;

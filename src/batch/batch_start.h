@@ -196,7 +196,7 @@ class BatchStart {
       }
     gap_.swap(next_);
     differentiate(span);
-    change *= reciprocal(size);  // ratio of squares: the change of each sweep is smaller than the previous one by about the previous relative change
+    change *= reciprocal(size);  // ratio of squares: a sweep's change over the previous one is about the previous relative change
   }
 
   // One classical Runge-Kutta step, from a node where forces are known.

@@ -13,14 +13,14 @@ namespace {
 
 constexpr int kJudgedEvery = 8;           // steps between two checks of the account
 constexpr double kExplained = 30;         // multiple of tolerance times turnover that errors of the forces explain. Eq. (8.2)
-constexpr double kPerExchange = 0.01;     // fraction of the energy exchanged to and fro that counts as turnover: errors add up in long runs
-constexpr double kLeastJudged = 1e-7;  // lower limit on the tolerance by which the account is judged: below it roundoff determines the account
+constexpr double kPerExchange = 0.01;     // fraction of the energy exchanged that counts as turnover: errors add up in long runs
+constexpr double kLeastJudged = 1e-7;  // lower limit on the tolerance by which the account is judged: below it is roundoff
 constexpr double kRounding = 1e-11;       // fraction of the largest entry that roundoff may leave open
 constexpr double kGiven = 0.01;           // fraction of the turnover: more negative dissipation than this is unexplained
 constexpr int kRunaway = 10;              // powers of ten above the storable energy from which growth is judged. Eq. (8.4)
 constexpr double kFarFed = 1000;          // multiple of the storable energy: a larger work is named if the run ends badly
 constexpr int kCompared = 4;              // powers of ten: the time that the last ones took is compared with that of the ones before
-constexpr double kSteady = 1.5;           // upper limit on the ratio of these times: 1 for an exponential, 100 for constant torque, 3.2 for t^8
+constexpr double kSteady = 1.5;           // limit on the ratio of these times: 1 for an exponential, 100 for constant torque, 3.2 for t^8
 
 template <class S>
 double reach(const BasicPlacement<S>& at) { return std::max(at.F.p.norm(), at.M.p.norm()); }

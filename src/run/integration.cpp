@@ -43,7 +43,7 @@ class Standstill {
 // A step may span much of a period of the motion, and the dense output of radau has correspondingly many samples of the forces; other methods on free bodies resolve
 // the joints' vibrations. Forces that balance the instantaneous loads, as those of ideal joints do, change as fast as the loads; the error of the motion need not show this.
 LoadSampling load_sampling(const MethodChoice& choice, double tolerance, double output_step) {
-  constexpr double kFinest = 1e-8;  // resolution: finer details are missing from the peaks. With 1e-7, the RMS of a load with a pulse is right to 5e-10, and the run takes a fifth less time
+  constexpr double kFinest = 1e-8;  // resolution: peaks lack finer details. With 1e-7, the RMS of a load with a pulse is right to 5e-10, and the run takes a fifth less time
   if (choice.equations != Equations::kNewtonian) return {CurveGrid::kMost, std::max(tolerance, kFinest), (CurveGrid::kMost - 1) * output_step};  // as many samples as rows
   return {choice.method == "radau" ? CurveGrid::kMost : 3};
 }

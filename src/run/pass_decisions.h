@@ -28,11 +28,11 @@ constexpr std::uint64_t kLong = 10000;     // after a pass with more steps than 
 constexpr double kFinest = 1e-11;          // lowest tolerance tried because errors grow exponentially; one further pass is compared with it
 constexpr double kMostScatter = 0.65;      // upper limit, as a fraction of the growth rate, on its scatter for chaos to be claimed: the double pendulum has 0.56; a cam whose roller rattles, and whose finer passes agree to the end, has 0.75
 constexpr double kOptimism = 2;            // standard errors subtracted from a growth rate before concluding that no tolerance helps
-constexpr double kFalls = 0.1;             // fraction of the error of earlier passes that grew apart in the same way: passes whose error falls below it still converge. With 0, three balls of a cradle, whose error falls from 9 to 0.4 of the peak with a tenth of the tolerance, are taken for chaotic
+constexpr double kFalls = 0.1;             // fraction of the error of earlier passes that grew apart: passes with less still converge. With 0, three balls of a cradle, whose error falls from 9 to 0.4 of the peak with a tenth of the tolerance, are taken for chaotic
 constexpr double kFarBelow = 1e-18;        // if growing errors would require a tolerance below this, the attainable ones are not tried
 constexpr double kSudden = 0.1;            // fraction of the previous error times the ratio of the two tolerances: passes with a smaller error may agree by chance
 constexpr double kLeap = 1e-4;             // lower limit on the next tolerance, as a fraction of the last, unless two pairs have shown the same exponential growth
-constexpr double kShift = 0.2;             // fraction of the time in which errors grow by the ratio of two tolerances: the tighter passes must part at least this much later. Those of a pendulum that falls from its upper position part only 0.04 of it later, as errors grow only while it falls
+constexpr double kShift = 0.2;             // fraction of the time in which errors grow by the ratio of two tolerances: the tighter passes must part at least this much later. Those of a pendulum that falls from its upper position part 0.04 of it later, as errors grow only while it falls
 constexpr int kMostOpen = 2;               // upper limit on the passes repeated because the energy account did not close
 
 }  // namespace pintle::pass_decisions

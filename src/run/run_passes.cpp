@@ -238,7 +238,7 @@ class Passes {
       if (out_.of_motion) choice_.stages = 5;  // long steps are much the same at any tolerance: a different order shows their error
       return at(kRepeated * tolerance);
     }
-    const double enough = tolerance < kFinest ? 1 : has_stuck() && tolerance > kNearRounding ? kPromisedStuck : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance; all of it where finer passes find only roundoff
+    const double enough = tolerance < kFinest ? 1 : has_stuck() && tolerance > kNearRounding ? kPromisedStuck : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance; 1 where finer passes find roundoff
     if (error_ <= enough * wanted) {
       // If the passes took nearly the same steps again, the tolerance does not limit them, and that the passes agree is little evidence.
       if (agree_suddenly() && !confirmed_ && !last_one) return confirmed_ = true, at(kRepeated * tolerance);

@@ -17,7 +17,7 @@ struct AlphaWeights {
 
   double gamma() const { return 0.5 - accelerations + forces; }
   double beta() const { return 0.25 * (0.5 + gamma()) * (0.5 + gamma()); }
-  /// The accelerations belong to a time that differs from the end of the step by this fraction of it: earlier if negative, later if positive.
+  /// Offset of the time of the accelerations from the end of the step, as a fraction of it: earlier if negative.
   double lag() const { return accelerations - forces; }
   /// Error constants: a step adds this times h^3 q''' to the error of positions, and this times h^3 v''' to that of velocities.
   double position_error() const { return beta() + 0.5 * lag() - 1.0 / 6; }

@@ -17,7 +17,7 @@ using S = Planar;
 using Eigen::Index;
 
 constexpr int kMaxIterations = 20;                                         // upper limit for Newton's method
-constexpr double kEnough = 1e-9;                                           // the last correction is below this fraction of the largest coordinate: the iteration does not converge quadratically
+constexpr double kEnough = 1e-9;                                           // last correction, as a fraction of the largest coordinate: the iteration is not quadratic
 constexpr double kFactor = 1e7;                                            // ratio of the penalties in the iteration to what resists them in a step
 constexpr double kProjection = 1e-7;                                       // added to the rows' scaled matrix, so that dependent rows need no special treatment
 constexpr int kPasses = 2;                                                 // of a projection

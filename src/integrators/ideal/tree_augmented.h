@@ -68,7 +68,7 @@ class TreeAugmented final : public Stepper {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Eigen::MatrixXd newton_;
   TreeState begin_, end_, trial_, inside_;
-  Vector own_w_, law_w_, w_before_, u_before_;    // accelerations at the start of the step: the method's own, those of the forces; at the start of the previous step
+  Vector own_w_, law_w_, w_before_, u_before_;    // accelerations at the start: the method's own, those of the forces; at the previous start
   Vector w_begin_, w_lagged_before_;              // the same for this step
   Vector multipliers_, stiffness_;                // of rows
   double largest_y_ = 1, largest_u_ = 1, violation_ = 0;

@@ -19,7 +19,7 @@ struct TreeState {
   std::vector<double> law_state, law_rate;  // of the laws' own states, as in State
 };
 
-/// Derivatives with respect to coordinates and rates, other than those of the laws, at constant accelerations and law forces. theory/tree Eq. (5.4).
+/// Derivatives by coordinates and rates, except those of the laws, at constant accelerations and law forces. theory/tree Eq. (5.4).
 struct TreeSlopes {
   Eigen::MatrixXd balance, balance_by_rate;  // of the residual of the balance
   Eigen::MatrixXd gap, gap_by_rate;          // of the accelerations of the gaps

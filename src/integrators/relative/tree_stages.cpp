@@ -197,7 +197,7 @@ TreeStages::Vector<Scalar> TreeStages::states_moved(const Mode<Scalar>& mode, co
   return move;
 }
 
-// One Newton correction: transforms to the diagonal frame, solves, transforms back. Eq. (5.6). Returns its size as body forces over the scale.
+// One Newton correction: into the diagonal frame, solution, and back. Eq. (5.6). Returns its size as body forces over the scale.
 double TreeStages::correct(const LoadScale& scale) {
   if (tree_.n() == 0) return 0;
   const Index n = tree_.n(), m = at_[0].n_gaps();

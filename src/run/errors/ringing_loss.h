@@ -21,7 +21,7 @@ class BasicRingingLoss {
   /// Call after a step of h seconds.
   void see_step(const BasicStepNodes<S>& nodes, double h);
   int n_steps() const { return n_steps_; }
-  /// Joints also carry the forces of accelerations that other joints' vibrations cause. Adds to each joint what it lacks of these, from the joints that have lost more than this force [N] or couple [N*m], by the configuration at the start.
+  /// Other joints also carry the forces that a joint's vibrations cause. Adds what they lack of these, for joints that have lost more than this force [N] or couple [N*m] themselves; with the forces' distribution at the start.
   void add_transmitted(double least_force, double least_couple);
   /// The largest force that joint j has lacked so far for lost ringing [N], and the largest couple [N*m].
   double force(std::size_t j) const { return linear_magnitude<S>(most_lost_[j]); }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPeakOfRounding = 10;       // peak of roundoff over a whole run, as a multiple of that of one force. With 1 the rail of snap_through_truss states an error of a hundredth of what it carries
 constexpr double kNegligibleOfMotor = 1e-3;  // lower limit on the reference of a motor's error, as a fraction of the largest force
-constexpr double kManySteps = 1000;          // from this number of steps the damped part may be larger in proportion: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it. With double this number gears-1-77 of the battery takes twice the steps, with half of it as many
+constexpr double kManySteps = 1000;          // from this number of steps on, limits grow in proportion to it: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it. With double this number gears-1-77 of the battery takes twice the steps, with half of it as many
 constexpr double kMostRinging = 3;           // upper limit on vibrations damped unnoticed, as a multiple of the tolerance of the steps times the geometric mean of the joint's peak and the largest one. What thousands of steps lose of resolved vibrations shows in the difference of the passes
 constexpr double kOfEqual = 3;               // factor of Eq. (6.2): share of the difference that would be the finer pass's error if it were as coarse
 

@@ -10,8 +10,8 @@
 namespace pintle {
 namespace {
 
-// As a fraction of the mechanism's size: a joint that deflects by more is torn, if the weight of the whole mechanism alone deflects it by less than this fraction of that; softer joints
-// are meant to deflect. No stiff joint of the collection deflects by a twentieth of it; with double the value a rod that is shorter than its crank by a tenth is not reported.
+// Fraction of the mechanism's size: a joint that deflects by more is torn, if the weight of the whole mechanism deflects it by less than this fraction of that; softer
+// joints are meant to deflect. No stiff joint of the collection deflects by a twentieth of it; with double it a rod that is shorter than its crank by a tenth is not reported.
 constexpr double kTorn = 0.02;
 
 // The largest stiffness of a joint against displacements, as of a blade pulled lengthwise [N/m]; infinite if it holds none, or is ideal.

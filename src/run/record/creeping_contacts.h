@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// A note on contacts in which a considerable part of the force at `end` is damping, so that they follow their load slowly compared with the `duration` of the run [s]; empty if there are none.
+/// A note on contacts in which much of the force at `end` is damping, so that they follow their load slowly compared with a run of `duration` [s]; empty if there are none.
 template <class S>
 std::string note_on_creeping_contacts(const BasicSystem<S>& system, const BasicState<S>& end, double duration);
 
