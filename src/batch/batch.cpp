@@ -19,7 +19,7 @@ namespace {
 // Peaks are more accurate than the error estimate of steps: steps of the base are tried with far more than the tolerance, then tightened.
 constexpr double kLoosest = 1000;                 // multiple of the tolerance with which steps are tried first
 constexpr double kTighten = 3.1622776601683795;  // factor from one try to the next
-constexpr double kShare = 0.1;                    // of the tolerance: largest deviation of the base's peaks from those of its own run
+constexpr double kShare = 0.1;                    // largest deviation of the base's peaks from those of its own run, in tolerances
 constexpr double kWorse = 4;                      // upper limit on the errors of a variant's steps, as a multiple of those of the base
 constexpr double kOfNewton = 0.2;  // ratio of the tolerance of iterations to that of steps
 constexpr int kMostIterations = 10;  // limit in a step of the base: with more, shorter steps are cheaper, and a variant may not converge

@@ -14,7 +14,7 @@ namespace {
 constexpr int kJudgedEvery = 8;           // steps between two checks of the account
 constexpr double kExplained = 30;         // multiple of tolerance times turnover that errors of the forces explain. Eq. (8.2)
 constexpr double kPerExchange = 0.01;     // fraction of the energy exchanged that counts as turnover: errors add up in long runs
-constexpr double kLeastJudged = 1e-7;  // lower limit on the tolerance by which the account is judged: below it is roundoff
+constexpr double kLeastJudged = 1e-7;  // lower limit on the tolerance by which the account is judged: below it roundoff dominates
 constexpr double kRounding = 1e-11;       // fraction of the largest entry that roundoff may leave open
 constexpr double kGiven = 0.01;           // fraction of the turnover: more negative dissipation than this is unexplained
 constexpr int kRunaway = 10;              // powers of ten above the storable energy from which growth is judged. Eq. (8.4)

@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kShort = 0.1;    // of the usual step: shorter ones are taken with any error, since they contain a jump
+constexpr double kShort = 0.1;    // fraction of the usual step: shorter ones are taken with any error, since they contain a jump
 constexpr double kNext = 2;       // ratio of the next step to one that was taken in this way
 
 }  // namespace

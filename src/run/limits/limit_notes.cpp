@@ -19,7 +19,7 @@ constexpr int kHalvings = 40;                                  // bisections of 
 constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // lower and upper limit on the tolerance of the steps that find the time of arrival
 constexpr double kLooks = 2000;                                // upper limit on the checks for a limit in a repeated run
 constexpr double kSameLimit = 1e-6;                            // two values of a coordinate that differ by less are the same limit [rad or m]
-constexpr double kLittle = 0.01;                               // of the duration: how long after a stopped run its drive is checked for a limit
+constexpr double kLittle = 0.01;                               // fraction of the duration after a stopped run at which its drive is checked for a limit
 
 // What was found about a drive.
 struct Finding {

@@ -20,7 +20,7 @@ class BasicEdgeOverruns {
       for (int j = 0; j < system.n_joints(); ++j)
         if (std::holds_alternative<EdgeGap>(system.joints[static_cast<std::size_t>(j)].displacement)) inside_.push_back(j);
   }
-  /// Call at the end of a step, or at an output row inside an earlier one. A roller lifted off its edge touches nothing there.
+  /// Call at the end of a step, or at an output row inside it, before its end. A roller lifted off its edge touches nothing there.
   void see(const BasicState<S>& state) {
     if constexpr (S::kDim == 2) {
       if (inside_.empty()) return;

@@ -24,7 +24,7 @@ class BasicLostEquilibria {
       if (found != columns.end()) joints_.push_back({j, static_cast<std::size_t>(found - columns.begin())});
     }
   }
-  /// Call at the end of a step, or at an output row inside an earlier one.
+  /// Call at the end of a step, or at an output row inside it, before its end.
   void see(const BasicState<S>& state) {
     for (Joint& joint : joints_) {
       if (state.t >= joint.lost_at) continue;

@@ -22,7 +22,7 @@ class BasicWoundBelts {
       for (int j = 0; j < system.n_joints(); ++j)
         if (const auto belt = belt_of(system.joints[static_cast<std::size_t>(j)].displacement)) belts_.push_back({j, *belt});
   }
-  /// Call at the end of a step, or at an output row inside an earlier one.
+  /// Call at the end of a step, or at an output row inside it, before its end.
   void see(const BasicState<S>& state) {
     if constexpr (S::kDim == 2) {
       if (belts_.empty()) return;
