@@ -16,18 +16,18 @@
 namespace pintle {
 namespace {
 
-// Peaks are better than what steps leave unresolved: steps of the base are tried with far more than the tolerance, then tighter.
-constexpr double kLoosest = 1000;                 // of the tolerance: the steps that are tried first
-constexpr double kTighten = 3.1622776601683795;  // from one try to the next
-constexpr double kShare = 0.1;                    // of the tolerance: by which the base's peaks may miss those of its own run
-constexpr double kWorse = 4;                      // what a variant's steps may leave unresolved, over the same of the base's
-constexpr double kOfNewton = 0.2;  // tolerance of iterations over that of steps
-constexpr int kMostIterations = 10;  // in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
-constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // of the base's joints, before one of them would count as soft
-constexpr double kUnsettled = 0.01;  // of the tolerance: what another sweep would change at the start
-constexpr double kWellSettled = 0.2;  // of that, for the base
+// Peaks are more accurate than the error estimate of steps: steps of the base are tried with far more than the tolerance, then tightened.
+constexpr double kLoosest = 1000;                 // multiple of the tolerance with which steps are tried first
+constexpr double kTighten = 3.1622776601683795;  // factor from one try to the next
+constexpr double kShare = 0.1;                    // largest deviation of the base's peaks from those of its own run, in tolerances
+constexpr double kWorse = 4;                      // upper limit on the errors of a variant's steps, as a multiple of those of the base
+constexpr double kOfNewton = 0.2;  // ratio of the tolerance of iterations to that of steps
+constexpr int kMostIterations = 10;  // limit in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
+constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // factors tried by which the base's joints could be slower before one is soft
+constexpr double kUnsettled = 0.01;  // upper limit, as a fraction of the tolerance, on what another sweep would change at the start
+constexpr double kWellSettled = 0.2;  // fraction of that limit, for the base
 constexpr int kFewestSweeps = 2, kMostSweeps = 4;
-constexpr std::size_t kMostSteps = 100'000;  // of the base: with more, a run of its own is no dearer
+constexpr std::size_t kMostSteps = 100'000;  // upper limit for the base: with more, a run of its own costs no more
 
 bool is_for_batches(const Model& model) {
   const SimulateSettings& s = model.simulate;
@@ -35,7 +35,7 @@ bool is_for_batches(const Model& model) {
          (s.method == "auto" || s.method == "radau") && s.duration > 0;
 }
 
-// The lengths of the base's steps. False where it does not get to the end.
+// Finds the lengths of the base's steps. Returns false if it does not reach the end.
 bool find_steps(const State& start, BatchPlan& plan) {
   RadauStepper stepper(plan.base, plan.tolerance);
   stepper.set_max_step(plan.max_step);
@@ -49,7 +49,7 @@ bool find_steps(const State& start, BatchPlan& plan) {
   return true;
 }
 
-// Whether a batch finds the peaks of the base's own run, with most of the tolerance to spare; and how large errors of steps may be.
+// Whether a batch finds the peaks of the base's own run, with most of the tolerance to spare. Also sets how large errors of steps may be.
 bool is_good(BatchPlan& plan, const Model& base, const Trajectory& run) {
   plan.most_error = HUGE_VAL;
   BatchResult found;
@@ -118,7 +118,7 @@ bool Batch::accepts(const Model& variant) const {
          is_near(s.max_step / s.duration, plan_.max_step / plan_.duration);
 }
 
-// So that no joint of it is soft where those of the base are fast.
+// Ensures that no joint of the variant is soft where those of the base are fast.
 bool Batch::is_like_base(const System& variant) const {
   if (!BatchMechanism::accepts(variant) || variant.joints.size() != plan_.base.joints.size() || variant.loads.size() != plan_.base.loads.size() ||
       variant.applied.size() != plan_.base.applied.size())
@@ -147,7 +147,7 @@ bool Batch::put(int lane, const Model& variant) {
     work_->put(i, variant_[lane], assembly.state.q, assembly.state.v, variant.simulate.duration);
   };
   if (filled_ == std::array<bool, kVariantLanes>{})
-    for (int i = 0; i < kVariantLanes; ++i) board(i);  // lanes that stay empty have numbers, too
+    for (int i = 0; i < kVariantLanes; ++i) board(i);  // lanes that stay empty need numbers, too
   else board(lane);
   filled_[lane] = true;
   return true;

@@ -21,23 +21,23 @@ struct BatchPlan {
   double duration = 0, max_step = 0;                   // [s]
   double wanted = 0;                                   // tolerance of the forces
   double tolerance = 0, of_newton = 0;                 // of the steps, of the iterations in them
-  double most_error = 0;                               // of a variant's steps, over their tolerance
-  double span = 0;                                     // over which the joints are smooth at the start, of the duration
-  int sweeps = 2;                                      // of their motion there
-  double slack = 1;                                    // the base's joints may be so much slower without being soft
+  double most_error = 0;                               // upper limit on the error of a variant's steps, relative to their tolerance
+  double span = 0;                                     // time over which the joints are smooth at the start, as a fraction of the duration
+  int sweeps = 2;                                      // over their motion there
+  double slack = 1;                                    // factor by which the base's joints may be slower without being soft
   LoadScale scale;
-  std::vector<double> steps;                           // shares of the duration
+  std::vector<double> steps;                           // fractions of the duration
 };
 
-/// None where `base` is of a kind, or has a start, that a batch does not take, or where its batch's peaks are not those of `run`, the
-/// checked run that the nominal settings are from.
+/// Empty if `base` or its start is of a kind that a batch does not accept, or if its batch's peaks are not those of `run`, the
+/// checked run from which the nominal settings are.
 std::optional<BatchPlan> plan_batch(const Model& base, const NominalRun& nominal, const Trajectory& run);
 
 struct BatchResult {
-  bool good = false;  // otherwise the rest says nothing
-  double unsettled = 0;  // what another sweep would change at the start, relative
-  double error = 0;   // the largest of a step, over the tolerance of steps
-  int iterations = 0;  // of the step that took most, in this lane or another
+  bool good = false;  // otherwise the rest is meaningless
+  double unsettled = 0;  // relative change that another sweep would make at the start
+  double error = 0;   // the largest of any step, relative to the tolerance of steps
+  int iterations = 0;  // of the step that took the most, in this lane or another
   struct Peak {
     double force = 0, time = 0, couple = 0;  // [N], [s], [N*m]
   };
@@ -51,11 +51,11 @@ class Batch {
   explicit Batch(const BatchPlan& plan);
   ~Batch();
 
-  /// Whether the plan can serve this variant at all.
+  /// Whether the plan is suitable for this variant at all.
   bool accepts(const Model& variant) const;
-  /// Assembles a variant into a lane. False where that is not one for a batch. Throws AssemblyError.
+  /// Assembles a variant into a lane. Returns false if it is not suitable for a batch. Throws AssemblyError.
   bool put(int lane, const Model& variant);
-  /// All lanes that something was put into since the last time.
+  /// Runs all lanes that have been filled since the last call.
   std::array<BatchResult, kVariantLanes> run();
 
  private:
@@ -67,7 +67,7 @@ class Batch {
   std::array<bool, kVariantLanes> filled_{};
 };
 
-/// Batches of one plan for as many threads as ask: to make one takes as long as to run it.
+/// Batches of one plan for any number of threads: making one takes as long as running it.
 class BatchPool {
  public:
   explicit BatchPool(BatchPlan plan) : plan_(std::move(plan)) {}

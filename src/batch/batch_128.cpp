@@ -1,4 +1,4 @@
-// Batches in registers that every processor has; and the choice between these and wider ones.
+// Batches in registers that every processor has, and the choice between these and wider ones.
 #define PINTLE_BATCH bits128
 #include "batch/batch_lanes.h"
 #include "simd/processor_registers.h"

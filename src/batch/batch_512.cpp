@@ -1,4 +1,4 @@
-// Batches in registers of 512 bits. What is included before the target is set is everybody's code, and stays as it is.
+// Batches in registers of 512 bits. Code included before the target is set is shared by all and must not be compiled for it.
 #include "batch/batch_common.h"
 
 #ifdef PINTLE_WIDE

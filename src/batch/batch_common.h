@@ -1,4 +1,4 @@
-// What code for registers of any width is made of and shares.
+// Shared includes of the code for registers of any width.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// The joint forces of variants along a step, and the largest of them. What DenseOutput and LoadRecorder do: theory/time section 5.
+// The joint forces of variants along a step, and the largest of them. Does what DenseOutput and LoadRecorder do: theory/time section 5.
 #pragma once
 
 #include <algorithm>
@@ -34,14 +34,14 @@ class BatchCurves {
   }
 
   void forget() { std::fill(peaks_.begin(), peaks_.end(), BatchPeak{}); }
-  /// The start, and the force there.
+  /// Takes the start and the force there.
   PINTLE_PART void look_at(const VariantLanes& t, const VariantVecs& force) {
     for (std::size_t j = 0; j < peaks_.size(); ++j) {
       raise(peaks_[j].square, peaks_[j].time, force[j][0] * force[j][0] + force[j][1] * force[j][1], t);
       raise(peaks_[j].couple_square, peaks_[j].couple_time, force[j][2] * force[j][2], t);
     }
   }
-  /// A step.
+  /// Takes a step.
   void look_along(const BatchState& begin, const BatchState& end, const BatchNodes& nodes) {
     find(begin, end, nodes);
     find_peaks(begin.t, end.t - begin.t);
@@ -51,7 +51,7 @@ class BatchCurves {
  private:
   static constexpr int N = kBatchStages, kSamples = ForceSamples::kN;
 
-  // The forces' own curves: through the ends and samples inside.
+  // The curves of the forces, through the ends of the step and samples inside it.
   PINTLE_PART void find(const BatchState& begin, const BatchState& end, const BatchNodes& nodes) {
     const VariantLanes h = end.t - begin.t, h2 = h * h, mu = table_.real_eigenvalue * reciprocal(h);
     sampled_[0] = begin.force;
@@ -112,7 +112,7 @@ class BatchCurves {
       find_peak(couple_square, t0, h, peaks_[j].couple_square, peaks_[j].couple_time);
     }
   }
-  // Of the points of the grid, and of the parabolas through three neighbours.
+  // The largest of the points of the grid and of the parabolas through three neighbours.
   PINTLE_LANES void find_peak(const VariantLanes* square, const VariantLanes& t0, const VariantLanes& h, VariantLanes& peak, VariantLanes& time) {
     constexpr double d = 1.0 / CurveGrid::kIntervals;
     for (int p = 1; p < CurveGrid::kPoints; ++p) {

@@ -12,9 +12,9 @@
 
 namespace pintle {
 
-constexpr int kVariantLanes = 8;  // variants: what hides the latency of a chain of operations that wait for each other
-constexpr int kBatchStages = 3;  // of their steps
-using VariantLanes = Lanes<kVariantLanes>;  // a number of each
+constexpr int kVariantLanes = 8;  // number of variants: enough to hide the latency of a chain of dependent operations
+constexpr int kBatchStages = 3;  // stages of their steps
+using VariantLanes = Lanes<kVariantLanes>;  // one number of each variant
 using VariantVec = BlockVec<VariantLanes, 3>;
 using VariantVecs = std::vector<VariantVec>;  // per body, with one more for the ground; or per joint
 
@@ -33,7 +33,7 @@ struct BatchBody {
 
 struct BatchJoint {
   Placement at;              // the bodies; its frames are not used
-  int a = 0, b = 0;          // where the bodies stand in EachVecs
+  int a = 0, b = 0;          // indices of the bodies in VariantVecs
   BlockPattern::Slot slot{};
   BatchFrame F, M;
   VariantVec offset, k, c, over_k;
@@ -50,7 +50,7 @@ struct BatchJointKinematics {
   GapMap<VariantLanes> map;
 };
 
-/// An instant of all variants. The vectors of bodies have one entry more, for the ground.
+/// An instant of all variants. The vectors over bodies have one more entry, for the ground.
 struct BatchState {
   VariantLanes t;
   VariantVecs q, v, a;
@@ -72,10 +72,10 @@ class BatchMechanism {
   /// Room for variants of `base`.
   explicit BatchMechanism(const System& base);
 
-  /// Whether systems of this kind can stand in a batch at all.
+  /// Whether systems of this kind can be in a batch at all.
   static bool accepts(const System& system);
 
-  /// Puts a variant into a lane; it must stay where it is.
+  /// Puts a variant into a lane; it must not be moved afterwards.
   void put(int lane, const System& variant);
 
   std::vector<BatchBody> bodies;
@@ -100,7 +100,7 @@ class BatchMechanism {
     ground = BatchMotion{VariantLanes(0.0), VariantLanes(0.0), VariantLanes(0.0), VariantLanes(1.0), VariantLanes(0.0), VariantLanes(0.0), VariantLanes(0.0), VariantLanes(0.0)};
   }
 
-  /// Of bodies that have not moved.
+  /// Updates the rates of bodies that have not moved.
   PINTLE_LANES void rates(const VariantVecs& v, std::vector<BatchMotion>& out) const {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       out[i].vx = v[i][0];

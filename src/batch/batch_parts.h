@@ -1,5 +1,5 @@
-// What works on batches is compiled for registers of 128, 256 and 512 bits: batch_128.cpp and its like say which with PINTLE_BATCH, a
-// namespace of their own, and the compiler's target. The bits of the results are the same.
+// The code for batches is compiled for registers of 128, 256 and 512 bits: batch_128.cpp and its siblings select the width by PINTLE_BATCH,
+// a namespace of their own, and by the compiler's target. The results are bitwise identical.
 #pragma once
 
 #include "batch/batch_mechanism.h"
@@ -8,6 +8,6 @@
 #error "for batch_128.cpp and its like"
 #endif
 
-/// Before a function of some size: one piece of code, into which all that it calls of lanes and blocks is inlined. None takes or gives
-/// VariantLanes by value: code for narrow and for wide registers disagrees on how that is done, and g++ 12 with itself.
+/// Marks a larger function, which becomes one piece of code with all its calls on lanes and blocks inlined. None takes or returns
+/// VariantLanes by value: the conventions for this differ between narrow and wide registers, and g++ 12 does not follow its own.
 #define PINTLE_PART [[gnu::noinline, gnu::flatten]]

@@ -13,14 +13,14 @@ PINTLE_PART inline void read(const BatchMechanism& mechanism, const VariantLanes
   mechanism.joint_kinematics(t, m, r);
 }
 
-/// The same where only the velocities have changed.
+/// The same if only the velocities have changed.
 PINTLE_PART inline void read_rates(const BatchMechanism& mechanism, const VariantLanes& t, const VariantVecs& v, std::vector<BatchMotion>& m,
                                    std::vector<BatchJointKinematics>& r) {
   mechanism.rates(v, m);
   mechanism.joint_kinematics(t, m, r);
 }
 
-/// What gaps of the bodies' x lack of those wanted: wanted - known - G x; `known` is a member of the joint kinematics.
+/// What the gaps of the bodies' x lack compared with those wanted: wanted - known - G x; `known` is a member of the joint kinematics.
 PINTLE_PART inline void find_missing(const BatchMechanism& mechanism, const std::vector<BatchJointKinematics>& r, const VariantVecs& wanted, VariantVec BatchJointKinematics::*known,
                                      const VariantVecs& x, VariantVecs& missing) {
   for (std::size_t j = 0; j < r.size(); ++j) {

@@ -1,5 +1,5 @@
-// The start of variants on their joints' slow motion, from assembled positions and velocities. What start_forces and
-// move_onto_slow_manifold do where no joint is soft, with a number of passes that does not depend on what they find: theory/assembly
+// The start of variants on their joints' slow motion, from assembled positions and velocities. Does what start_forces and
+// move_onto_slow_manifold do if no joint is soft, with a number of passes that does not depend on their results: theory/assembly
 // sections 3 and 4.
 #pragma once
 
@@ -23,8 +23,8 @@ class BatchStart {
       for (VariantVecs& x : *k) x.resize(mechanism.n_bodies() + 1);
   }
 
-  /// Completes `state`, whose positions and velocities are given, at t = 0; gaps are smooth over `span`. `change`: what
-  /// another sweep would still change, relative: about the square of what the last one has.
+  /// Completes `state`, whose positions and velocities are given, at t = 0; gaps are smooth over `span`. `change`: the
+  /// relative change that another sweep would make, about the square of that of the last one.
   void find(BatchState& state, const VariantLanes& span, int sweeps, VariantLanes& change) {
     preload(state);
     for (Curve* c : {&gap_, &rate_, &accel_})
@@ -42,7 +42,7 @@ class BatchStart {
 
   void read(const BatchState& state) { PINTLE_BATCH::read(mechanism_, state.t, state.q, state.v, m_, r_); }
 
-  // The frequency above which modes are held: a part of the slowest that a joint gives its own two bodies.
+  // The frequency above which modes are held: a fraction of the slowest that a joint gives its own two bodies.
   PINTLE_LANES VariantLanes held_above() const {
     VariantLanes slowest(1e300);
     for (std::size_t j = 0; j < r_.size(); ++j) {
@@ -53,7 +53,7 @@ class BatchStart {
       const auto add = [&](int body, const VariantLanes& x, const VariantLanes& y) {
         if (body == static_cast<int>(mechanism_.n_bodies())) return;
         const VariantVec& over = mechanism_.bodies[body].over_mass;
-        const VariantLanes u = g.s * x - g.c * y, w = g.c * x + g.s * y;  // of a turn, along and across
+        const VariantLanes u = g.s * x - g.c * y, w = g.c * x + g.s * y;  // displacement with rotation, along and across
         mobility[0] += (c2 + s2) * over[0] + u * u * over[2];
         mobility[1] += (c2 + s2) * over[1] + w * w * over[2];
         mobility[2] += over[2];
@@ -68,7 +68,7 @@ class BatchStart {
     return mu;
   }
 
-  // Accelerations and forces for which the gaps accelerate as the state says. assembly Eqs. (3.1), (3.2).
+  // Accelerations and forces for which the gaps accelerate as given in the state. assembly Eqs. (3.1), (3.2).
   void find_forces(BatchState& state) {
     find_accelerations(state);
     for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(Q_, state.a, state.force);
@@ -112,7 +112,7 @@ class BatchStart {
       for (int k = 0; k < 3; ++k) state.v[i][k] += dv_[i][k];
   }
 
-  // What the laws make of the gaps, and all accelerations.
+  // The laws' forces at the gaps, and all accelerations.
   void balance(BatchState& state) {
     read(state);
     mechanism_.external(state.t, m_, state.a);
@@ -167,7 +167,7 @@ class BatchStart {
       }
   }
 
-  // The motion with the present gap accelerations, and the gaps from the forces that it takes. assembly Eqs. (4.1)-(4.4).
+  // The motion with the present gap accelerations, and the gaps from the forces that it requires. assembly Eqs. (4.1)-(4.4).
   void sweep(const BatchState& start, const VariantLanes& span, bool swept, VariantLanes& change) {
     begin_ = start;
     BatchState& at = begin_;
@@ -196,10 +196,10 @@ class BatchStart {
       }
     gap_.swap(next_);
     differentiate(span);
-    change *= reciprocal(size);  // of squares: each sweep changes as much less than the one before as that one has changed
+    change *= reciprocal(size);  // ratio of squares: a sweep's change over the previous one is about the previous relative change
   }
 
-  // One classical Runge-Kutta step, from where forces have been found.
+  // One classical Runge-Kutta step, from a node where forces are known.
   void follow(BatchState& at, const VariantLanes& t0, const VariantLanes& span, double s0, double s1) {
     constexpr std::array<double, 4> c{0, 0.5, 0.5, 1};
     const VariantLanes h = (s1 - s0) * span;

@@ -1,4 +1,4 @@
-// Steps of Radau IIA of order 5 with variants side by side: what RadauStepper does, with lengths that are given and Jacobians of
+// Steps of Radau IIA of order 5 with variants side by side: does what RadauStepper does, with given lengths and with new Jacobians in
 // every step. theory/time sections 3 to 5.
 #pragma once
 
@@ -46,7 +46,7 @@ class BatchSteps {
     curves_.look_at(end_.t, end_.force);
   }
 
-  /// `share` is that of the duration.
+  /// `share`: length of the step as a fraction of the duration.
   void step(double share, const VariantLanes& duration) {
     std::swap(begin_, end_);
     const VariantLanes h = share * duration;
@@ -62,9 +62,9 @@ class BatchSteps {
     have_nodes_ = true;
   }
 
-  /// The largest error estimate of a step over the tolerance; infinite where an iteration has failed or numbers are none.
+  /// The largest error estimate of a step over the tolerance; infinite if an iteration has failed or a result is not a number.
   const VariantLanes& worst() const { return worst_; }
-  /// Of the step that took most.
+  /// Iterations of the step that took the most.
   int iterations() const { return iterations_; }
   const std::vector<BatchPeak>& peaks() const { return curves_.peaks(); }
   const BatchState& state() const { return end_; }
@@ -82,7 +82,7 @@ class BatchSteps {
         : q(n + 1), v(n + 1), a(n + 1), Q(n + 1), gap(joints), rate(joints), accel(joints), force(joints), bias(joints), map(joints) {}
   };
 
-  // What is not a number is larger than nothing, and would go unseen.
+  // NaN never compares as larger, so it would go unnoticed.
   void look_for_nonsense() {
     VariantLanes nothing(0.0);
     for (const VariantVec& f : end_.force)
@@ -93,7 +93,7 @@ class BatchSteps {
       if (nothing[lane] != 0) worst_.v[lane] = HUGE_VAL;
   }
 
-  // The last step's curve goes on. `ratio`: this step over the last one; 0: there is none.
+  // Extrapolates the last step's curve. `ratio`: this step over the last one; 0: there is none.
   PINTLE_PART void predict(double ratio) {
     for (int s = 0; s < N; ++s) {
       Stage& stage = stage_[s];
@@ -129,7 +129,7 @@ class BatchSteps {
     integrate(r_.size(), &Stage::accel, begin_.gap, begin_.rate, &Stage::gap, &Stage::rate);
   }
 
-  // From gaps and rates; how much they have changed, over the loads.
+  // Forces from gaps and rates; `change`: how much they have changed, relative to the loads.
   PINTLE_PART void find_forces(VariantLanes& change) {
     change = VariantLanes(0.0);
     for (std::size_t j = 0; j < r_.size(); ++j)
@@ -140,7 +140,7 @@ class BatchSteps {
       }
   }
 
-  // Maps, convective terms and loads where the stages are.
+  // Maps, convective terms and loads at the stages.
   PINTLE_PART void read_stages(const VariantLanes& h) {
     for (int s = 0; s < N; ++s) {
       Stage& stage = stage_[s];
@@ -151,7 +151,7 @@ class BatchSteps {
     }
   }
 
-  // At the middle stage: the joints' maps and forces, the loads' slopes; factorised. Eq. (3.8).
+  // The matrices at the middle stage, from the joints' maps and forces and the loads' derivatives; factorises them. Eq. (3.8).
   PINTLE_PART void linearize(const VariantLanes& h) {
     constexpr int kMiddle = 1;
     const VariantLanes over = reciprocal(h);
@@ -180,7 +180,7 @@ class BatchSteps {
     pair_.factorize();
   }
 
-  // The symmetric part of the loads' slopes: matrices stay symmetric, and Newton's iteration makes up for the rest.
+  // The symmetric part of the loads' derivatives: matrices stay symmetric, and Newton's iteration makes up for the rest.
   PINTLE_PART void add_load_tangents(const VariantLanes& t) {
     mechanism_.motions(stage_[1].q, stage_[1].v, m_);
     mechanism_.load_tangents(t, m_, [this](int lane, int i, int j, const Planar::Mat& dq, const Planar::Mat& dv) {
@@ -194,7 +194,7 @@ class BatchSteps {
       else add_slopes(lane, real_.off_diagonal(upper), pair_.off_diagonal(upper), dq.transpose(), dv.transpose());
     });
   }
-  // Half of them.
+  // Adds half of the derivatives.
   PINTLE_LANES void add_slopes(int lane, Block<VariantLanes, 3>& real, Block<Pair, 3>& pair, const Planar::Mat& dq, const Planar::Mat& dv) const {
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
@@ -204,7 +204,7 @@ class BatchSteps {
       }
   }
 
-  // Newton's iteration, every lane until it has converged. Eqs. (3.6)-(3.11).
+  // Newton's iteration, in each lane until it has converged. Eqs. (3.6)-(3.11).
   void solve(const VariantLanes& h) {
     VariantLanes active(1.0), last(0.0), change, of_forces;
     place(h);
@@ -224,7 +224,7 @@ class BatchSteps {
       if (active[lane] != 0) worst_.v[lane] = HUGE_VAL;
   }
 
-  // Lanes that are done get 0 in `active`. False: all of them are. As NewtonContraction.
+  // Sets `active` to 0 in lanes that are done; returns false if all are. Same rule as NewtonContraction.
   bool judge(int iteration, const VariantLanes& change, const VariantLanes& last, VariantLanes& active) {
     bool any = false;
     for (int lane = 0; lane < kVariantLanes; ++lane) {
@@ -246,7 +246,7 @@ class BatchSteps {
     return any;
   }
 
-  // One correction of the lanes that are active. The size of all, as body forces over the loads.
+  // Corrects the active lanes once. `worst`: the size of the corrections of all lanes, as body forces over the loads.
   PINTLE_PART void correct(const VariantLanes& active, VariantLanes& worst) {
     const auto real_part = [&](const auto& x) { return table_.inverse_real[0] * x(0) + table_.inverse_real[1] * x(1) + table_.inverse_real[2] * x(2); };
     const auto pair_part = [&](const auto& x) {
@@ -320,7 +320,7 @@ class BatchSteps {
     }
   }
 
-  // The last of three coefficients with what the next one will be like, over the tolerance. Eqs. (3.12), (3.13).
+  // The last of three coefficients, times the expected fall-off to the next one, over the tolerance. Eqs. (3.12), (3.13).
   PINTLE_LANES VariantLanes tail(const VariantLanes& last, const VariantLanes& before, const VariantLanes& before_that) const {
     VariantLanes out;
     for (int lane = 0; lane < kVariantLanes; ++lane) {

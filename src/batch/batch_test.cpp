@@ -27,7 +27,7 @@ Model batch_model(double stiffness = 1e8, double mass = 1) {
   return model;
 }
 
-// A pendulum with a torsion spring and a force over time: loads are asked variant by variant.
+// A pendulum with a torsion spring and a force over time: loads are evaluated variant by variant.
 Model loaded_pendulum(double pull = 5) {
   Model model = sample::pendulum(2e8, 3500);
   model.simulate.duration = 2;
@@ -146,7 +146,7 @@ TEST(Batch, WhatIsNotForOneIsRefused) {
   EXPECT_FALSE(batch.put(0, batch_model(1e6))) << "its joints are soft";
 }
 
-// Much faster than the base: its steps are too long for it. The envelope comes from a run of its own.
+// A variant much faster than the base, whose steps are too long for it. The envelope comes from a run of its own.
 TEST(Batch, AVariantThatNeedsShorterStepsSaysSo) {
   const Model base = driven_four_bar();
   Model fast = driven_four_bar(30);

@@ -11,15 +11,15 @@ namespace pintle {
 class BatchWork {
  public:
   virtual ~BatchWork() = default;
-  /// A variant with its assembled positions and velocities into a lane; the system must stay where it is.
+  /// Puts a variant with its assembled positions and velocities into a lane; the system must not be moved afterwards.
   virtual void put(int lane, const System& variant, const Vecs& q, const Vecs& v, double duration) = 0;
-  /// All lanes from start to end.
+  /// Runs all lanes from start to end.
   virtual void run() = 0;
-  /// What another sweep would change at the start, relative.
+  /// Relative change that another sweep would make at the start.
   virtual const VariantLanes& unsettled() const = 0;
-  /// The largest error estimate of a step over the tolerance; infinite where an iteration has failed or numbers are none.
+  /// The largest error estimate of a step over the tolerance; infinite if an iteration has failed or a result is not a number.
   virtual const VariantLanes& worst() const = 0;
-  /// Of the step and lane that took most.
+  /// Iterations of the step and lane that took the most.
   virtual int iterations() const = 0;
   virtual const std::vector<BatchPeak>& peaks() const = 0;
 };

@@ -41,7 +41,7 @@ SampleResult result_of(const Trajectory& run, bool checked) {
   out.message = run.message;
   out.steps = run.counters.steps;
   out.passes = run.counters.passes;
-  // Without a second integration there is no estimate, also where a checked run broke off before it; nor is there for what a chaotic motion does after its horizon.
+  // There is no estimate without a second integration, even if a checked run broke off before it, nor for a chaotic motion after its horizon.
   const bool estimated = checked && run.counters.passes > 1;
   out.joints.reserve(run.joints.size());
   for (const LoadSummary& joint : run.joints) {
@@ -60,13 +60,13 @@ void copy_series(const Trajectory& run, const std::vector<int>& columns, std::si
 // How many rows a run records.
 std::size_t output_rows(double duration, double step) {
   const double almost = duration * kAlmostAll;
-  std::size_t row = static_cast<std::size_t>(almost / step);  // at least the last row before the end, or its neighbour
+  std::size_t row = static_cast<std::size_t>(almost / step);  // the last row before the end, or its neighbour
   while (row > 0 && static_cast<double>(row) * step >= almost) --row;
   while (static_cast<double>(row + 1) * step < almost) ++row;
   return row + 2;
 }
 
-// One that cannot be assembled is not for a batch either: a run of its own says why.
+// A variant that cannot be assembled is not for a batch either: a run of its own reports why.
 bool board(Batch& batch, int lane, const Model& variant) {
   try {
     return batch.accepts(variant) && batch.put(lane, variant);
@@ -100,7 +100,7 @@ EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : req
   if (request_.unchecked) run_nominal(base);
 }
 
-// A base that cannot be run teaches nothing; its variants perhaps can.
+// A base that cannot be run gives no settings; its variants may still run.
 void EnvelopeEngine::run_nominal(const Model& base) {
   try {
     const Trajectory run = simulate_reduced(base, {Recorded::kForces, true, nullptr, &nominal_});
@@ -140,7 +140,7 @@ SampleResult EnvelopeEngine::of_batch(const BatchResult& result) const {
   return out;
 }
 
-// Those that are not checked go in batches as far as they can, the others one by one.
+// Unchecked variants are run in batches as far as possible, the others one by one.
 std::vector<SampleResult> EnvelopeEngine::run(std::span<const Variant> variants, const std::function<bool()>& keep_going) const {
   std::vector<SampleResult> out(variants.size());
   bool stopped = false;

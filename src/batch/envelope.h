@@ -15,7 +15,7 @@
 
 namespace pintle {
 
-/// One variant: the base model with other numbers in it. Names, types and their order are the base's.
+/// One variant: the base model with other numbers in it. Names, types and their order are those of the base.
 struct Variant {
   Model model;
   bool checked = true;  ///< its errors are estimated and the tolerance is met, as by `simulate`; otherwise one integration
@@ -25,32 +25,32 @@ struct Variant {
 struct JointPeak {
   double force = 0;   ///< magnitude [N]
   double time = 0;    ///< of the largest force [s]
-  double moment = 0;  ///< largest couple [N*m]; 0 where the joint transmits none
+  double moment = 0;  ///< largest couple [N*m]; 0 if the joint transmits none
   double error = 0;   ///< estimated, of any component over the run; NaN: not estimated
 };
 
 struct SampleResult {
   SampleStatus status = SampleStatus::kCompleted;
   std::uint64_t steps = 0, passes = 0;
-  bool in_batch = false;          ///< with others in the lanes of registers
+  bool in_batch = false;          ///< run with others in register lanes
   std::vector<JointPeak> joints;  ///< in the order of the model; empty if it could not be started
-  std::vector<double> series;     ///< the chosen columns one after the other, each at all output times; NaN where it did not get
-  std::string message;            ///< why it is not completed
+  std::vector<double> series;     ///< the chosen columns one after the other, each at all output times; NaN at times that were not reached
+  std::string message;            ///< why it was not completed
 };
 
 struct EnvelopeRequest {
   std::vector<std::string> series;  ///< names of columns as in series.csv
-  bool unchecked = false;           ///< some variants will not be checked: the base is run once to see how they are to be integrated
-  bool batches = true;              ///< variants may go in batches; otherwise each in a run of its own
+  bool unchecked = false;           ///< some variants will not be checked: the base is run once to find out how to integrate them
+  bool batches = true;              ///< variants may be run in batches; otherwise each in a run of its own
 };
 
 class EnvelopeEngine {
  public:
-  /// Throws std::invalid_argument for a column that `base` has not.
+  /// Throws std::invalid_argument for a column that `base` does not have.
   EnvelopeEngine(const Model& base, EnvelopeRequest request);
 
-  /// One result per variant, in order. What a variant's result is depends on that variant and the base alone, not on those
-  /// beside it. Empty when `keep_going`, asked now and then, says no.
+  /// One result per variant, in order. A variant's result depends only on that variant and the base, not on its neighbours.
+  /// Empty if `keep_going`, which is called now and then, returns false.
   std::vector<SampleResult> run(std::span<const Variant> variants, const std::function<bool()>& keep_going) const;
 
   const std::vector<std::string>& joints() const { return joints_; }
@@ -69,7 +69,7 @@ class EnvelopeEngine {
   double output_step_ = 0;
   std::size_t n_times_ = 0;
   NominalRun nominal_;  // of the base
-  std::shared_ptr<BatchPool> batches_;  // none: the base is not for batches
+  std::shared_ptr<BatchPool> batches_;  // null: the base is not for batches
 };
 
 }  // namespace pintle

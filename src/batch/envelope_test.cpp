@@ -1,4 +1,4 @@
-// The envelopes of variants are those of runs, whatever stands beside a variant.
+// The envelopes of variants are those of runs, regardless of a variant's neighbours.
 #include "batch/envelope.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(Envelope, OfACheckedVariantIsTheRunBitForBit) {
   }
 }
 
-// One integration is as accurate as asked, it only does not prove it.
+// One integration is as accurate as requested; it just does not prove it.
 TEST(Envelope, OfAnUncheckedVariantIsWithinTheTolerance) {
   for (const double stiffness : {1e6, 1e8, 1e10}) {
     const Trajectory truth = simulate(envelope_model(stiffness, 1e-8));

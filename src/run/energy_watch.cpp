@@ -11,21 +11,21 @@
 namespace pintle {
 namespace {
 
-constexpr int kJudgedEvery = 8;           // steps between two looks at the account
-constexpr double kExplained = 30;         // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
-constexpr double kPerExchange = 0.01;     // part of the energy that goes to and fro: errors add up in long runs
-constexpr double kLeastJudged = 1e-7;  // tolerance below which rounding makes the account: it is judged by this one
-constexpr double kRounding = 1e-11;       // of the largest entry: what rounding may leave open
-constexpr double kGiven = 0.01;           // of the turnover: heat below zero that nothing explains
-constexpr int kRunaway = 10;              // powers of ten above what can be stored. Eq. (8.4)
-constexpr double kFarFed = 1000;          // times what is stored: work that is named where a run comes to no good end
-constexpr int kCompared = 4;              // powers of ten: the time of the last ones is compared with that of those before
-constexpr double kSteady = 1.5;           // ratio of these times: 1 of an exponential, 100 of constant torque, 3.2 of t^8
+constexpr int kJudgedEvery = 8;           // steps between two checks of the account
+constexpr double kExplained = 30;         // multiple of tolerance times turnover that errors of the forces explain. Eq. (8.2)
+constexpr double kPerExchange = 0.01;     // fraction of the energy exchanged that counts as turnover: errors add up in long runs
+constexpr double kLeastJudged = 1e-7;  // lower limit on the tolerance by which the account is judged: below it roundoff dominates
+constexpr double kRounding = 1e-11;       // fraction of the largest entry that roundoff may leave open
+constexpr double kGiven = 0.01;           // fraction of the turnover: more negative dissipation than this is unexplained
+constexpr int kRunaway = 10;              // powers of ten above the storable energy from which growth is judged. Eq. (8.4)
+constexpr double kFarFed = 1000;          // multiple of the storable energy: a larger work is named if the run ends badly
+constexpr int kCompared = 4;              // powers of ten: the time that the last ones took is compared with that of the ones before
+constexpr double kSteady = 1.5;           // limit on the ratio of these times: 1 for an exponential, 100 for constant torque, 3.2 for t^8
 
 template <class S>
 double reach(const BasicPlacement<S>& at) { return std::max(at.F.p.norm(), at.M.p.norm()); }
 
-// The distance over which weights can work: from the markers, and the bodies' own size.
+// The distance over which weights can do work, from the markers and the bodies' own size.
 template <class S>
 double size_of(const BasicSystem<S>& system) {
   double size = system.largest_radius_of_gyration();
@@ -77,7 +77,7 @@ void BasicEnergyWatch<S>::start(const BasicState<S>& state) {
   flow_ = flow(state);
 }
 
-// What one motor gives and another takes is not seen in their sum.
+// The sum of powers does not show what one motor gives and another takes.
 template <class S>
 double BasicEnergyWatch<S>::flow(const BasicState<S>& state) {
   if (drives_.size() + system_.loads.size() + system_.applied.size() < 2) return std::abs(state.supply_power) + std::abs(state.loss_power);
@@ -161,7 +161,7 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
                          missing > 0 ? "many" : "few", state.t, within, cause, motors > 1 ? ". Or motors that contradict each other: pintle check counts what they leave free" : "");
 }
 
-// Eq. (8.4). Only energy that was fed counts: what falls, or what springs give, the mechanism had.
+// Eq. (8.4). Only supplied energy counts: the mechanism already had what falling weights or springs give.
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const BasicState<S>& state) {
   const double energy = state.supplied - state.dissipated;
@@ -173,12 +173,12 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const Basi
   if (!more || reached_ <= kRunaway) return Alarm::kNone;
   const double last = decade_[reached_ - 1] - decade_[reached_ - 1 - kCompared];
   const double before = decade_[reached_ - 1 - kCompared] - decade_[reached_ - 1 - 2 * kCompared];
-  if (!(before > 0) || last > kSteady * before) return Alarm::kNone;  // powers of ten within one step tell nothing
+  if (!(before > 0) || last > kSteady * before) return Alarm::kNone;  // powers of ten reached within one step show no growth rate
   say_runaway(state, energy);
   return Alarm::kRunaway;
 }
 
-// Works since the energy left what can be stored, by the powers at the ends of steps.
+// Work since the energy exceeded what can be stored, from the powers at the ends of steps.
 template <class S>
 void BasicEnergyWatch<S>::add_works(const BasicState<S>& state, double h) {
   system_.motions(state.q, state.v, m_);

@@ -1,4 +1,4 @@
-// Follows the energy of a motion from step to step: whether its account closes, and whether it runs away. theory/time section 8.
+// Checks the energy of a motion step by step: whether its account closes, and whether it runs away. theory/time section 8.
 #pragma once
 
 #include <string>
@@ -14,30 +14,30 @@ class BasicEnergyWatch {
  public:
   enum class Alarm { kNone, kRunaway, kOpen };
 
-  /// A motion of `duration` [s] whose forces are to be right to `tolerance` [-]. `exact_work`: the method integrates works as it does the
-  /// motion, so that the account is as accurate; otherwise it is not judged. `counts_turns`: it follows belts however far they are wound; otherwise they are watched.
+  /// For a motion of `duration` [s] whose forces are to be accurate to `tolerance` [-]. `exact_work`: the method integrates work as accurately as the
+  /// motion; otherwise the account is not judged. `counts_turns`: the method follows belts however far they are wound; otherwise they are watched.
   BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work, bool counts_turns);
 
-  /// The energy that an earlier integration of the same motion has turned over, by whose loads this one measures its errors [J].
+  /// Sets the energy turned over by the earlier integration whose loads serve as the error scale of this one [J].
   void expect(double turnover) { expected_ = turnover; }
   /// The energy turned over so far. Eq. (8.2)
   double turnover() const;
 
   void start(const BasicState<S>& state);
-  /// The end of a step of h seconds.
+  /// Call at the end of each step; h [s] is its length.
   Alarm see_step(const BasicState<S>& state, double h);
-  /// The end of the motion: the account is judged once more.
+  /// Call at the end of the motion: the account is judged once more.
   Alarm see_end(const BasicState<S>& state);
-  /// What has fed the motion far more than the mechanism stores by itself, in words; empty: nothing has.
+  /// Names the element that has fed the motion far more than the mechanism stores by itself; empty if there is none.
   std::string note_on_feeder() const;
-  /// What the last alarm was about.
+  /// Describes the last alarm.
   const std::string& message() const { return message_; }
 
  private:
   struct Feeder {
     const char* kind;
     const std::string* name;
-    bool listens;     // to the motion, so that a sign may be wrong: not to the time alone
+    bool listens;     // depends on the motion, not on time alone, so that a sign may be wrong
     double work = 0;  // [J]
   };
   Alarm judge_account(const BasicState<S>& state);
@@ -49,26 +49,26 @@ class BasicEnergyWatch {
   void say_runaway(const BasicState<S>& state, double energy);
   const Feeder* largest_feeder() const;
 
-  static constexpr int kDecades = 64;  // powers of ten above the storable energy whose instants are kept
+  static constexpr int kDecades = 64;  // number of powers of ten of the storable energy whose times are kept
   const BasicSystem<S>& system_;
   double duration_, tolerance_;
   bool exact_work_;
-  double storable_ = 0;                  // what the mechanism stores at the start, or its weights over its size [J]
+  double storable_ = 0;                  // Eq. (8.3): stored at the start, and by its weights over its size [J]
   double total_ = 0, potential_ = 0;     // at the start [J]
-  double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of the potential one [J]
-  double kinetic_ = 0, exchanged_ = 0;   // at the last step; the sum of its changes by their size [J]
-  double expected_ = 0;                  // turnover [J]
-  double throughput_ = 0;                // of all that supplies and all losses, by their size [J]
+  double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of potential energy [J]
+  double kinetic_ = 0, exchanged_ = 0;   // at the last step; sum of the absolute changes [J]
+  double expected_ = 0;                  // turnover of an earlier integration [J]
+  double throughput_ = 0;                // absolute work of all supplies and losses [J]
   double flow_ = 0;                      // its rate at the last step [W]
-  double missing_ = 0;                   // of the account when last judged [J]
+  double missing_ = 0;                   // error of the account when last judged [J]
   int since_judged_ = 0;
-  int reached_ = 0;                      // powers of ten of `storable_`
-  double decade_[kDecades] = {};         // when they were [s]
+  int reached_ = 0;                      // powers of ten of `storable_` reached
+  double decade_[kDecades] = {};         // when they were reached [s]
   std::vector<typename S::Motion> m_;
   std::vector<Feeder> feeders_;          // joints, loads, applied forces
-  std::vector<int> belts_;                     // joints that wind, and whose turns are not counted
+  std::vector<int> belts_;                     // joints that wind, but whose turns are not counted
   std::vector<int> drives_;                    // joints that are driven
-  std::vector<int> lengths_;                   // of those, the ones by their length
+  std::vector<int> lengths_;                   // those driven by their length
   std::string message_;
 };
 using EnergyWatch = BasicEnergyWatch<Planar>;

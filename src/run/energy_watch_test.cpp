@@ -1,4 +1,4 @@
-// Energy that appears from nowhere, or goes nowhere, is noticed; energy that comes and goes by the account is not.
+// Energy that appears from nowhere or disappears is noticed; energy that the account explains is not.
 #include "run/energy_watch.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(EnergyWatch, WorkThatIsInNoEnergyIsNoticedAtOnce) {
   }
 }
 
-// What makes an account fail to close is told by what the mechanism has, and by whether the energy went at once.
+// The likely cause is inferred from the elements of the mechanism, and from whether the energy disappeared suddenly.
 TEST(EnergyWatch, ALikelyCauseIsNamed) {
   struct Case {
     bool ideal, loaded, sudden;
@@ -91,7 +91,7 @@ TEST(EnergyWatch, TheEndIsJudgedToo) {
   EXPECT_EQ(watch.see_end(p.state), Alarm::kOpen);
 }
 
-// The account closes, but what can only take has given.
+// The account closes, but elements that can only dissipate have supplied energy.
 TEST(EnergyWatch, HeatBelowZeroIsNoticedAtTheEnd) {
   for (const double given : {1e-3, 5.0}) {
     Pendulum p;
@@ -114,7 +114,7 @@ TEST(EnergyWatch, WhatErrorsWithinTheToleranceExplainIsNoAlarm) {
   EXPECT_EQ(unheard.see_end(p.state), Alarm::kNone);
 }
 
-// A drive that lifts a weight gives what the weight takes: the sum of both is next to nothing, and the errors of each are as large as what it turns over.
+// A drive that lifts a weight gives what the weight takes: their sum is almost zero, but the error of each is relative to what it turns over.
 TEST(EnergyWatch, WhatOneForceGivesAndAnotherTakesIsTurnedOver) {
   Model model = sample::pendulum(1e8, 1000);
   for (const char* torque : {"5e5", "-5e5"}) {
@@ -132,7 +132,7 @@ TEST(EnergyWatch, WhatOneForceGivesAndAnotherTakesIsTurnedOver) {
   EXPECT_NEAR(watch.turnover(), 2e3, 30);
 }
 
-// Errors of a motion that begins quietly are measured by the loads of what comes later, once these are known.
+// Errors of a motion that begins quietly are measured against the later loads once these are known.
 TEST(EnergyWatch, AQuietBeginningIsJudgedByWhatAnEarlierPassHasTurnedOver) {
   Pendulum p;
   EnergyWatch whole(p.system, 2, 1e-6, true, true), again(p.system, 2, 1e-6, true, true);
@@ -151,7 +151,7 @@ TEST(EnergyWatch, AQuietBeginningIsJudgedByWhatAnEarlierPassHasTurnedOver) {
   EXPECT_EQ(again.see_end(p.state), Alarm::kOpen);
 }
 
-// Work that is fed and stored nowhere (the account is not judged): only how it grows counts.
+// Work that is supplied but stored nowhere (the account is not judged): only its growth counts.
 TEST(EnergyWatch, ExponentialFeedingIsARunawayAndAPowerOfTimeIsNot) {
   const auto alarm = [](const auto& fed) {
     Pendulum p;

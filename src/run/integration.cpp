@@ -15,9 +15,9 @@ namespace pintle {
 
 namespace {
 
-constexpr std::uint64_t kMaxSteps = 20'000'000;  // of one integration, at most
+constexpr std::uint64_t kMaxSteps = 20'000'000;  // upper limit for one integration
 
-// Notices a motion that needs ever shorter steps: one that blows up without end.
+// Detects a motion that needs ever shorter steps because it diverges.
 class Standstill {
  public:
   explicit Standstill(double duration) : least_(kLeastShare * duration) {}
@@ -30,25 +30,25 @@ class Standstill {
     end_ = t;
     return still;
   }
-  // Where the last so many steps began [s].
+  // When the last kSteps steps began [s].
   double since() const { return since_; }
 
  private:
-  static constexpr int kSteps = 20000;         // of a motion that stands still: one that blows up
-  static constexpr double kLeastShare = 1e-6;  // of the duration, that so many steps have to go
+  static constexpr int kSteps = 20000;         // steps between two checks of how far the time has advanced
+  static constexpr double kLeastShare = 1e-6;  // least advance of kSteps steps, as a fraction of the duration
   double least_, since_ = 0, end_ = 0;
   int steps_ = 0;
 };
 
-// Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods on free bodies resolve the vibrations
-// of the joints. Forces that balance the loads of their instant, as those of ideal joints do, change as fast as these, which no error of the motion need show.
+// A step may span much of a period of the motion, and the dense output of radau has correspondingly many samples of the forces; other methods on free bodies resolve
+// the joints' vibrations. Forces that balance the instantaneous loads, as those of ideal joints do, change as fast as the loads; the error of the motion need not show this.
 LoadSampling load_sampling(const MethodChoice& choice, double tolerance, double output_step) {
-  constexpr double kFinest = 1e-8;  // resolution: what is finer is not in the peaks. With 1e-7, a load with a pulse has its RMS to 5e-10, and the run takes a fifth less
+  constexpr double kFinest = 1e-8;  // resolution: peaks lack finer details. With 1e-7, the RMS of a load with a pulse is right to 5e-10, and the run takes a fifth less time
   if (choice.equations != Equations::kNewtonian) return {CurveGrid::kMost, std::max(tolerance, kFinest), (CurveGrid::kMost - 1) * output_step};  // as many samples as rows
   return {choice.method == "radau" ? CurveGrid::kMost : 3};
 }
 
-// Where steps end that could pass a blow, or a kink or a jump of what drives them.
+// Times at which steps must end so as not to pass over a pulse, a kink or a jump of a load or drive.
 template <class S>
 std::vector<double> stops_at_bends(const BasicSystem<S>& system, double from, double to) {
   std::vector<double> stops = kinks_in_time(system, from, to);
@@ -57,10 +57,10 @@ std::vector<double> stops_at_bends(const BasicSystem<S>& system, double from, do
   return stops;
 }
 
-// The longest step of methods that do not look at what they pass, where a load reads places: a blow there need not be longer [s].
+// The longest step [s] of methods that do not watch what they pass, if a load depends on positions: its pulses may be no longer than this.
 template <class S>
 double longest_step(const BasicSystem<S>& system, double duration, double wanted) {
-  constexpr double kLooks = 500;  // of a run
+  constexpr double kLooks = 500;  // steps per run, at least
   const auto reads_places = [](const BasicLoadData<S>& load) { return std::any_of(load.signals.begin(), load.signals.end(), [](const BasicSignal<S>& signal) { return !signal.is_time; }); };
   if (std::none_of(system.loads.begin(), system.loads.end(), reads_places)) return wanted;
   return wanted > 0 ? std::min(wanted, duration / kLooks) : duration / kLooks;

@@ -21,8 +21,8 @@ struct BasicIntegrationPlan {
   double first_step = 0;
   MethodChoice choice;
   const BasicLoadScale<S>* scale = nullptr;  // from an earlier pass
-  BasicEnergyWatch<S>* energy = nullptr;     // ends the integration where it raises an alarm
-  BasicRingingLoss<S>* ringing = nullptr;    // sees the steps of methods that keep their inside
+  BasicEnergyWatch<S>* energy = nullptr;     // ends the integration if it raises an alarm
+  BasicRingingLoss<S>* ringing = nullptr;    // sees the steps of methods that keep their stages
   std::function<bool(double t)> keep_going;  // called after each step; false stops
 };
 using IntegrationPlan = BasicIntegrationPlan<Planar>;
@@ -37,7 +37,7 @@ struct BasicIntegration {
   Counters counters;
   BasicLoadScale<S> scale;
   std::vector<LawCrossing> crossings;  // of the borders of laws
-  std::vector<std::string> remarks;  // what the method noticed
+  std::vector<std::string> remarks;  // of the method, for the notes
   int sliding_load = -1;                // Stepper::sliding_load
   double unbounded_reactions = -1;   // Stepper::unbounded_reactions
 };

@@ -15,23 +15,23 @@ namespace {
 
 using S = Planar;
 
-// Couples are told where the joint holds an angle, meshes, rubs at a radius, or something acts on the angle that it leaves free: friction, stops, a detent. About the axis of
-// a cam that is its torque.
+// Couples are reported if the joint holds an angle, meshes or rubs at a radius, or if something acts on the angle that it leaves free: friction, stops, a detent. About the
+// axis of a cam the couple is its torque.
 bool tells_couple(const JointData& joint) {
   const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement) || belt_of(joint.displacement);
   return has_couple(joint) || mesh || joint.cam || joint.edge || (joint.free_mask[2] > 0 && (joint.law.rubs() || joint.law.has_stops()));
 }
 
-// Equations that keep its gap at zero do not ask a joint's law, whose columns would tell nothing but what follows from its reaction.
+// Equations that keep a joint's gap at zero do not use its law, whose columns would show only what follows from its reaction.
 bool asks_law(const Model& model, const JointData& joint) {
   return !joint.ideal || !has_constraints(model.simulate.equations) || joint.law.feeds() || joint.law.depends_on_reaction_alone();
 }
 
-// A coordinate of the relative pose is free to slide; what a gap that is a function leaves free is the law's to tell.
+// Whether a coordinate of the relative pose is free to slide. What a gap given by a function leaves free is reported by the law.
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
-// Pins whose place in their bush is of interest: those that are not held by springs.
+// Pins whose position in their bush is of interest: those that are not held by springs.
 bool has_orbit(const JointData& joint) { return is_pose_joint(joint) && joint.held[0] && joint.held[1] && !joint.held[2] && !joint.law.ideal_limit(); }
-// Rods, ropes and what has a length or a stroke.
+// Rods, ropes and other joints with a length or a stroke.
 bool pushes_its_ends(const JointData& joint) { return std::holds_alternative<Distance>(joint.displacement) || (joint.free_mask[0] > 0 && !slides(joint)); }
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
@@ -43,7 +43,7 @@ Recorder::Recorder(const Model& model, const System& system, Recorded what)
   find_drives();
 }
 
-// Servos and efforts stand in the system in the order of the motors.
+// Servos and efforts are in the system in the order of the motors.
 void Recorder::find_drives() {
   std::size_t servo = model_.joints.size(), load = 0;
   for (const Motor& motor : model_.motors) {
@@ -188,7 +188,7 @@ void Recorder::add(const State& state) {
   if (what_ == Recorded::kColumns) put_row(state);
 }
 
-// Once the forces and energies of the row are in their tables.
+// Call once the forces and energies of the row are in their tables.
 void Recorder::put_row(const State& state) {
   const S::Vec* load = forces_.world.data() + forces_.world.size() - system_.joints.size();
   put(state.t);

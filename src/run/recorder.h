@@ -15,10 +15,10 @@ class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
   Recorder(const Model& model, const System& system, Recorded what = Recorded::kColumns);
 
   void add(const State& state) override;
-  /// Of what is recorded.
+  /// The columns that are recorded.
   std::vector<Column> columns() const;
   void keep_forces_only() override;
-  /// Columns, values, summaries, notes on what is not in them. The rows change hands.
+  /// Fills in columns, values, summaries, and notes on what they omit. The rows are moved out.
   void fill(Trajectory& trajectory) override;
 
  private:

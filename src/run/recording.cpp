@@ -10,11 +10,11 @@
 namespace pintle {
 namespace {
 
-constexpr double kRows = 500;              // of a run whose output step is not stated
-constexpr double kMostForces = 1e7;        // joints times rows, where the output step is not stated: 480 MB for two passes
+constexpr double kRows = 500;              // rows of a run whose output step is not stated
+constexpr double kMostForces = 1e7;        // upper limit on joints times rows if the output step is not stated: 480 MB for two passes
 constexpr std::size_t kSmall = 1000;       // bodies and joints: with fewer everything is kept
-constexpr double kMostNumbers = 2e7, kMostColumns = 1e5;  // in the table that is kept unasked
-constexpr double kPerBody = 6, kPerJoint = 8;  // columns, about
+constexpr double kMostNumbers = 2e7, kMostColumns = 1e5;  // upper limits for a table that is kept by default
+constexpr double kPerBody = 6, kPerJoint = 8;  // approximate number of columns
 
 }  // namespace
 

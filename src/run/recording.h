@@ -11,11 +11,11 @@ namespace pintle {
 
 struct Recording {
   std::vector<bool> body, joint;  // whether its columns are kept; joints of the system
-  std::string note;               // what was left out unasked; empty: nothing
+  std::string note;               // what was left out by default; empty: nothing
 };
 Recording choose_recording(const Model& model, const System& system);
 
-/// The time between two rows: as stated, else a part of the duration that keeps the tables of forces bounded [s].
+/// The time between two rows: as stated, otherwise a fraction of the duration that keeps the tables of forces bounded [s].
 double output_step_of(const SimulateSettings& settings, std::size_t n_joints);
 
 }  // namespace pintle

@@ -59,11 +59,11 @@ class Passes {
     return context_.observer({t, settings_.duration, static_cast<int>(out_.counters.passes) + 1, now});
   }
 
-  // False when it did not reach the end: then the passes before it stand, unless it is the first.
+  // Returns false if the pass did not reach the end. The earlier passes then stand, unless it was the first.
   bool run_pass(double tolerance) {
     std::unique_ptr<BasicForceRecorder<S>> recorder = context_.make_recorder();
     BasicIntegrationPlan<S> p = plan(tolerance);
-    // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
+    // Explicit methods integrate works by the trapezoidal rule; others leave works out of their error control.
     const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
     BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestOfMotion)), exact_work, choice_.method == "radau" && !has_constraints(choice_.equations));
     if (p.scale) energy.expect(turnover_);
@@ -99,11 +99,11 @@ class Passes {
     ++c.passes;
   }
 
-  // A pass whose energy account does not close is not compared with others: a finer one may close it.
+  // A pass whose energy account does not close is not compared with others. It is repeated with a smaller tolerance, which may close it.
   bool run_closed_pass(double& tolerance) {
     bool complete = run_pass(tolerance);
     for (; interrupted_.first == Ended::kEnergyOpen && open_ < kMostOpen && tolerance > kLeastTolerance; ++open_) {
-      if (last_.ended == Ended::kEnergyOpen) {  // it was the first, and its loads are no measure for the next
+      if (last_.ended == Ended::kEnergyOpen) {  // it was the first, and its loads are no scale for the next
         fine_.reset();
         last_.scale = {};
       }
@@ -142,7 +142,7 @@ class Passes {
     if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
       choice_.stages = 5;
       complete = run_closed_pass(of_pilot);
-      if (!complete && interrupted_.first != Ended::kStopped) {  // the pass of three stages stands, and others like it follow
+      if (!complete && interrupted_.first != Ended::kStopped) {  // keep the pass of three stages, and continue with three
         choice_.stages = 3;
         complete = true;
       }
@@ -152,7 +152,7 @@ class Passes {
     return complete;
   }
 
-  // The last two passes, of which the coarser had the tolerance `before` and made so many steps.
+  // Compares the last two passes. The coarser one had the tolerance `before` and took `steps_before` steps.
   void compare(double before, double steps_before) {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_before_ = std::exchange(coarse_tolerance_, before);
@@ -180,8 +180,8 @@ class Passes {
     error_before_ = std::exchange(error_, out_.of_motion ? of_passes : std::max(of_passes, largest_ringing_loss(system_, difference_, fine_ringing_, fine_tolerance_)));
   }
 
-  // In impacts forces differ by all there is as soon as these are apart by their own length, and between them by little: there it is the places whose
-  // differences grow steadily, and the line is shifted to where forces have reached the tolerance. theory/time section 6.1.
+  // Once an impact differs in time by more than its duration, the forces of two passes differ there by the whole force, and by little between impacts.
+  // Differences of positions grow steadily instead: the line is fitted to these and shifted to where the forces reach the tolerance. theory/time section 6.1.
   ErrorGrowth growth_of(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) const {
     if (out_.of_motion) return fit_growth(motion_difference_curve(system_, coarse, fine));
     const DifferenceCurve forces = force_difference_curve(system_, coarse, fine);
@@ -194,7 +194,7 @@ class Passes {
     return of_places;
   }
 
-  // What separates for good is not within the tolerance to the end of the run: a striking train that comes to rest is.
+  // Passes that have separated for good do not return to within the tolerance by the end of the run. Those of a striking train that comes to rest do.
   bool comes_together_again(const DifferenceCurve& forces) const {
     const double from = forces.t.empty() ? 0 : forces.t.back() - kLatePart * (forces.t.back() - forces.t.front());
     for (std::size_t i = 0; i < forces.t.size(); ++i)
@@ -202,16 +202,16 @@ class Passes {
     return true;
   }
 
-  // To which part errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
+  // Errors of the last pass relative to those of the previous one: the ratio of the tolerances, or more if the steps have shrunk by less than this would require.
   double fall_of_errors(double before, double steps_before) const {
     if (longest_ > 0) return std::pow(kShorter, choice_.stages);
     const double of_tolerance = fine_tolerance_ / before;
     if (choice_.method != "radau" || choice_.stages != stages_before_) return of_tolerance;
-    const double least = feels_rounding(fine_tolerance_) ? kRepeated : 0;  // of its steps' errors rounding is a part that no tolerance makes smaller
+    const double least = feels_rounding(fine_tolerance_) ? kRepeated : 0;  // part of the error of its steps is roundoff, which no tolerance reduces
     return std::max({least, of_tolerance, std::pow(steps_before / static_cast<double>(last_.counters.steps), choice_.stages + 1)});
   }
 
-  // A difference that has stopped growing does not tell the finer one's part.
+  // A difference that has stopped growing does not show which part of it is the finer pass's error.
   void take_all(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
     share_ = 1;
     find_difference(coarse, fine);
@@ -220,13 +220,13 @@ class Passes {
 
   void find_difference(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
-    // Other methods step over kinks, between which their curves are only near.
+    // Other methods step over kinks, near which their curves are only approximate.
     if (choice_.method != "radau" || coarse.t.back() != fine.t.back()) return;
     include_peaks(fine_->loads(), kNegligible, difference_);
     include_peak_differences(coarse_->loads(), fine_->loads(), difference_);
   }
 
-  // Whether another pass is made, and with which tolerance.
+  // Decides whether another pass is made, and sets its tolerance.
   bool go_finer(double& tolerance) {
     const double wanted = settings_.tolerance;
     const auto at = [&tolerance](double next) { return tolerance = std::max(kLeastTolerance, next), true; };
@@ -235,12 +235,12 @@ class Passes {
     if (last_.ended == Ended::kRunaway || (last_.unbounded_reactions >= 0 && !out_.of_motion)) return false;
     if (((alike_ && !doubted_) || ran_away_) && !last_one) {
       doubted_ = true;
-      if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
+      if (out_.of_motion) choice_.stages = 5;  // long steps are much the same at any tolerance: a different order shows their error
       return at(kRepeated * tolerance);
     }
-    const double enough = tolerance < kFinest ? 1 : has_stuck() && tolerance > kNearRounding ? kPromisedStuck : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance, where finer passes find rounding
+    const double enough = tolerance < kFinest ? 1 : has_stuck() && tolerance > kNearRounding ? kPromisedStuck : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance; 1 where finer passes find roundoff
     if (error_ <= enough * wanted) {
-      // Alike again, and it is not the tolerance that limits the steps: that the passes agree says little.
+      // If the passes took nearly the same steps again, the tolerance does not limit them, and that the passes agree is little evidence.
       if (agree_suddenly() && !confirmed_ && !last_one) return confirmed_ = true, at(kRepeated * tolerance);
       if (!alike_ || out_.of_motion || longest_ > 0 || last_one || choice_.method != "radau") return false;
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
@@ -263,21 +263,21 @@ class Passes {
     return at_rounding_ ? end_far_apart() : at(finer_by_error(tolerance));
   }
 
-  // Whether surfaces have come to rest: with which force depends on how they did.
+  // Whether surfaces have come to rest. The force they lock in depends on how they did.
   bool has_stuck() const {
     return std::any_of(last_.crossings.begin(), last_.crossings.end(), [this](const LawCrossing& crossing) {
       return system_.joints[static_cast<std::size_t>(crossing.joint)].law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising) == "sticks";
     });
   }
 
-  // Far better than their tolerances say, after passes that no tolerance had brought nearer: it may be by chance.
+  // The passes agree far better than their tolerances explain, while the error of the previous ones had not fallen. This may be chance.
   bool agree_suddenly() const { return stalled_ && fine_tolerance_ > kNearRounding && error_ < kSudden * error_before_ * fine_tolerance_ / coarse_tolerance_; }
 
   static bool is_steady(const ErrorGrowth& growth) { return growth.rate_scatter < kMostScatter * growth.rate; }
-  // Errors of a chaotic motion are as large as they can be, whatever the tolerance.
+  // False for a chaotic motion: its errors are as large as they can be, whatever the tolerance.
   bool errors_fall() const { return error_ < kFalls * error_at_last_growth_; }
 
-  // Of a motion that shows the same growth twice, without a look at what the tightest tolerances make of it: errors may grow for a while only.
+  // Whether a motion that shows the same growth twice is chaotic without trying the tightest tolerances. Errors may also grow for a limited time only.
   bool is_sure() const {
     const double shift = (growth_.until - last_growth_.until) * growth_.rate / std::log(coarse_at_last_growth_ / coarse_tolerance_);
     return growth_.to_largest == last_growth_.to_largest && tolerance_by_growth(growth_.rate, 1) < kFarBelow && shift > kShift;
@@ -288,23 +288,23 @@ class Passes {
     chaos_.rate_error = std::max(growth.rate_error, growth.rate_scatter);
   }
 
-  // No finer pass is made. Where pairs of passes have grown apart at rates that are not quite the same, and no pass since has come nearer, that is chaos too. False.
+  // Returns false: no finer pass is made. If pairs of passes have grown apart at somewhat different rates, and no later pass has come closer, that is chaos too.
   bool end_far_apart() {
     if (!chaos_.exponential && growths_ > 1 && is_steady(steadiest_) && !errors_fall()) claim_chaos(steadiest_);
     return false;
   }
 
-  // Of a pass with this tolerance. Between events steps are short, and longer with order 9.
+  // Chooses the order of a pass with this tolerance. Steps between events are short; order 9 makes them longer.
   void choose_order(double tolerance) {
     if (tolerance < kTight && (last_.counters.steps > kCheap || last_.counters.events > 0)) choice_.stages = 5;
   }
 
-  // A long pass that has refused half as many steps as it has made for their errors.
+  // A long pass that has rejected, for their errors, more than half as many steps as it has taken.
   bool feels_rounding(double tolerance) const { return tolerance < kNearRounding && last_.counters.steps > kLong && 2 * last_.counters.rejected > last_.counters.steps; }
-  // And that has gained little on the one before, which was near there too.
+  // Such a pass that has also gained little on the previous one, which was near rounding too.
   bool meets_rounding(double tolerance) const { return feels_rounding(tolerance) && coarse_tolerance_ < kNearRounding && error_before_ > 0 && error_ > kNoGain * error_before_; }
 
-  // The tolerance of the pass after one of `tolerance`, with which the error that the last two show would be small enough.
+  // The tolerance of the next pass, after one with `tolerance`, that would make the error shown by the last two small enough.
   double finer_by_error(double tolerance) {
     const double shrink = 0.5 * std::pow(settings_.tolerance / error_, 1 / kErrorPower);
     const bool by_tenths = last_.counters.steps > kLong || tolerance < kNearRounding;
@@ -314,14 +314,14 @@ class Passes {
     return next;
   }
 
-  // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
+  // The tolerance with which errors that grow at this rate would be small enough at the end. The difference is the coarser pass's error.
   // theory/time Eq. (6.9).
   double tolerance_by_growth(double rate, double power) const {
     const double at_end = growth_.extrapolated(settings_.duration, rate);
     return coarse_tolerance_ * std::min(1.0, 0.5 * std::pow(settings_.tolerance / at_end, 1 / power));
   }
 
-  // Of the only pass: that of the second one, or what was enough for the run that the nominal settings are from.
+  // The tolerance of a single pass: that of the usual second pass, or what was enough for the nominal run.
   double tolerance_by_nominal(double second) {
     const BasicNominalRun<S>* nominal = context_.shape.nominal;
     if (nominal == nullptr || !(nominal->wanted > 0)) return second;
@@ -330,8 +330,8 @@ class Passes {
     return std::clamp(nominal->tolerance * settings_.tolerance / nominal->wanted, kLeastTolerance, second);
   }
 
-  // Over a joint's peak force. All passes share some errors, such as those of the vibration behind friction that turns round: the difference of passes does not
-  // show them, but they are within the tolerance of the steps.
+  // Relative to a joint's peak force. All passes share some errors, such as those of the vibration after friction reverses. Their difference does not
+  // show these errors, but they are within the tolerance of the steps.
   double least_error() const { return out_.of_motion ? 0 : kSurest * fine_tolerance_; }
 
   void finish() {
@@ -354,13 +354,13 @@ class Passes {
     if (chaotic) promise_until_horizons(system_, *coarse_, *fine_, share_while_small_, kPromised * settings_.tolerance, least, chaos_, out_);
   }
 
-  // No second pass has told them.
+  // There was no second pass to estimate them.
   void leave_errors_open() {
     for (LoadSummary& joint : out_.joints) joint.error_estimate = joint.moment_error_estimate = joint.relative_error_estimate = std::numeric_limits<double>::quiet_NaN();
   }
 
-  // Passes are made until errors are small beside the forces in the rows, and a small part of the peaks between them: an impact between rows shows its error there little. What is stated in the
-  // end, and judged, is over the joints' peaks.
+  // While passes are made, errors are measured against the forces in the rows and a small part of the peaks between rows: an impact between rows shows little of its error in them.
+  // The error stated and judged in the end is relative to the joints' peaks.
   void measure_by_peaks() {
     if (difference_.force.empty()) return;
     include_peaks(fine_->loads(), 1, difference_);
@@ -368,7 +368,7 @@ class Passes {
     if (!out_.of_motion) error_ = share_ * largest_of(relative_difference_);
   }
 
-  // With what each joint has lost since its event before. Where surfaces stick, their spring is given what friction has stored, which is lost again when they slip.
+  // Each event includes what its joint has lost since its previous event. Where surfaces stick, the energy stored by friction passes to their spring; it is lost again when they slip.
   void fill_events() {
     std::vector<JointEvents> of_joint(system_.joints.size());
     const std::vector<double>& heat = fine_->heat_at_crossings();
@@ -393,7 +393,7 @@ class Passes {
     }
   }
 
-  // Up to when a run would have met the tolerance.
+  // Up to which time the run meets the tolerance, in words.
   std::string until_missed() const {
     if (out_.of_motion || !coarse_) return "";
     const std::vector<double> horizons = force_horizons(system_, coarse_->forces(), fine_->forces(), share_, settings_.tolerance);
@@ -401,7 +401,7 @@ class Passes {
     return horizon > 0 && horizon < last_.t ? fmt::format("; up to t = {:.4g} s all are within it", horizon) : "";
   }
 
-  // Whether its couple, not its force, has the joint's largest error.
+  // Whether the joint's largest error is that of its couple rather than of its force.
   bool is_of_couple(const BasicJointData<S>& joint) const {
     const auto j = static_cast<std::size_t>(&joint - system_.joints.data());
     return share_ * difference_.force[j] < 0.5 * error_ * difference_.peak[j];
@@ -424,8 +424,8 @@ class Passes {
                        at_rounding_ ? why_not_finer() : "", until_missed());
   }
 
-  // How it ended; a pass that broke off leaves the results of the one before it.
-  // `worst` has the largest error; none where there is no estimate.
+  // Sets how the run ended. If a pass broke off, the results are those of the previous one.
+  // `worst` is the joint with the largest error; null if there is no estimate.
   void judge(const BasicJointData<S>* worst) {
     const bool no_estimate = worst == nullptr;
     const auto& [ended, message] = interrupted_;
@@ -454,25 +454,25 @@ class Passes {
   BasicRingingLoss<S> fine_ringing_;
   MethodChoice choice_;
   std::unique_ptr<BasicForceRecorder<S>> coarse_, fine_;
-  double fine_tolerance_ = 0, coarse_tolerance_ = 0, coarse_before_ = 0;  // of the last two passes; of the coarser one in the comparison before
+  double fine_tolerance_ = 0, coarse_tolerance_ = 0, coarse_before_ = 0;  // of the last two passes; of the coarser one in the previous comparison
   // Of the last two passes.
   PassDifference difference_;
   std::vector<double> relative_difference_;  // of each joint
-  double share_while_small_ = 1;                      // share_ of differences that are still far from all that they can become
+  double share_while_small_ = 1;                      // share_ of differences that are still far from saturation
   double share_ = 1, error_ = 0, error_before_ = 0;  // of the last two comparisons
-  bool stalled_ = false;                              // the errors of the two comparisons before: the later one was no smaller
-  bool confirmed_ = false;                            // a pass has been made because of that
-  bool at_rounding_ = false;                          // the last one has not gained on the one before
-  bool alike_ = false;             // their steps
-  int stages_before_ = 0;          // of the coarser one
-  ErrorGrowth growth_, last_growth_;  // and of the pair before that showed chaos: one between may be too short or too jagged to tell
+  bool stalled_ = false;                              // the error did not fall between the two previous comparisons
+  bool confirmed_ = false;                            // a pass has been made to confirm a sudden agreement
+  bool at_rounding_ = false;                          // the last pass has not gained on the previous one
+  bool alike_ = false;             // they took nearly the same steps
+  int stages_before_ = 0;          // of the coarser pass
+  ErrorGrowth growth_, last_growth_;  // the latter of the previous pair that showed chaos: one between may be too short or too jagged to tell
   double error_at_last_growth_ = 0, coarse_at_last_growth_ = 0;  // error_ and coarse_tolerance_ of those passes
   int growths_ = 0;                // pairs of passes that have shown chaos
-  ErrorGrowth steadiest_;          // of them, that of the least scatter for its rate
+  ErrorGrowth steadiest_;          // the one of these with the least scatter relative to its rate
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
-  bool doubted_ = false;           // a pass has been made because two were alike
-  double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
-  bool ran_away_ = false;          // the coarser one
+  bool doubted_ = false;           // a pass has been made because two took nearly the same steps
+  double longest_ = 0;             // longest step of passes from now on, as tolerances have not shortened the steps [s]
+  bool ran_away_ = false;          // the coarser pass
   std::string feeder_note_;        // BasicEnergyWatch::note_on_feeder of the last pass
   double turnover_ = 0;            // energy that the last pass has turned over, if its account closed [J]
   int open_ = 0;                   // passes repeated because the energy account did not close

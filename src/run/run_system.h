@@ -1,4 +1,4 @@
-// A run of a mechanism that stands in no model file, in the plane or in space: what `simulate` makes of a model, from C++.
+// A run, from C++, of a mechanism without a model file, in the plane or in space: the counterpart of `simulate` for models.
 #pragma once
 
 #include "pintle/simulate.h"
@@ -9,14 +9,14 @@ namespace pintle {
 template <class S>
 struct BasicSystemRun {
   Trajectory result;        ///< loads of the joints with their stated errors, energy account, counters, outcome, notes; no columns
-  BasicForceTable<S> rows;  ///< at the output times: places and velocities of the bodies, loads of the joints
+  BasicForceTable<S> rows;  ///< at the output times: positions and velocities of the bodies, loads of the joints
 };
 using SystemRun = BasicSystemRun<Planar>;
 
-/// Runs `system` from `start` as `settings` say; their start and record are not looked at. `start` is complete, at t = 0: places and velocities are
-/// the caller's, `start_forces` (start/start.h) finds what goes with them, `settle_joints` puts joints onto their
-/// slow motion, so that none rings. In space the stated errors are of the magnitudes of force and couple of every joint, as in the plane.
-/// Throws std::invalid_argument for a start or settings that cannot be; a numerical failure or an interruption is a value in the outcome.
+/// Runs `system` from `start` with `settings`, whose start and record are ignored. `start` must be complete, at t = 0: the caller supplies positions
+/// and velocities, `start_forces` (start/start.h) finds the rest, and `settle_joints` puts the joints on their
+/// slow motion, so that none rings. In space the stated errors are for the magnitudes of force and couple of every joint, as in the plane.
+/// Throws std::invalid_argument for an impossible start or impossible settings; a numerical failure or an interruption is reported in the outcome.
 template <class S>
 BasicSystemRun<S> run_system(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const Observer& observer = {});
 

@@ -1,4 +1,4 @@
-// A run of a model of the plane: assemble it, and make the passes.
+// A run of a planar model: assembles it and makes the passes.
 #include "pintle/simulate.h"
 
 #include <unordered_set>
@@ -13,7 +13,7 @@
 namespace pintle {
 namespace {
 
-constexpr std::size_t kManyBodies = 1000;  // of which the assembly takes long enough to say so
+constexpr std::size_t kManyBodies = 1000;  // with more bodies the assembly takes long enough to be reported
 
 }  // namespace
 
@@ -31,7 +31,7 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
   if (shape.recorded == Recorded::kColumns) {
     out.bearings = bearing_summaries(model, out);
     std::vector<std::string> limits = limit_notes(start.system, start.state, model.simulate, out, *recorder);
-    if (!limits.empty() && (out.outcome == Outcome::kEnergyOpen || out.outcome == Outcome::kFailed)) {  // what the end looked like says less than why it came
+    if (!limits.empty() && (out.outcome == Outcome::kEnergyOpen || out.outcome == Outcome::kFailed)) {  // the cause matters more than what the end looked like
       out.message = limits.front() + ". Behind that: " + out.message;
       limits.erase(limits.begin());
     }

@@ -1,4 +1,4 @@
-// Whole runs of the paper's mechanisms: known values, stated errors that hold, the account, interruption.
+// Whole runs of the paper's mechanisms: known values, reliable stated errors, the energy account, interruption.
 #include "pintle/simulate.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(Simulate, PendulumIsTheKnownOneAndItsErrorEstimateHolds) {
     ASSERT_EQ(run.joints.size(), 1u);
     EXPECT_LE(std::hypot(ex, ey), run.joints[0].error_estimate + 2e-7);
     EXPECT_LE(run.joints[0].relative_error_estimate, tolerance);
-    EXPECT_NEAR(run.joints[0].peak, 2.5 * 9.81, 0.01);  // straight down: weight, and 3/2 of it to turn
+    EXPECT_NEAR(run.joints[0].peak, 2.5 * 9.81, 0.01);  // straight down: its weight, and 3/2 of it to move in a circle
     EXPECT_LT(run.energy.drift, 10 * tolerance);
   }
 }
@@ -55,7 +55,7 @@ TEST(Simulate, FourBarIsTheKnownOne) {
   EXPECT_LT(run.energy.drift, 1e-9 * run.energy.kinetic_start);
 }
 
-// What a joint does to its second body it does to its first, the other way round.
+// A joint acts on its first body with the opposite of its force on the second.
 TEST(Simulate, ColumnsOfBothBodiesAreOpposite) {
   Model model = sample::four_bar(1e8, 3000);
   model.simulate.duration = 0.05;
@@ -82,7 +82,7 @@ TEST(Simulate, StopsWhenAsked) {
   Model model = sample::pendulum(1e8, 10);
   model.simulate.start = Start::kUnloaded;
   model.simulate.duration = 1e4;
-  model.simulate.output_step = 1e-2;  // a million rows: no machine is so fast that it is at the end before it has asked twice
+  model.simulate.output_step = 1e-2;  // a million rows: no machine is fast enough to reach the end before it has asked twice
   int asked = 0;
   const Trajectory run = simulate(model, [&](const Progress& progress) {
     EXPECT_EQ(progress.duration, 1e4);

@@ -15,9 +15,9 @@ namespace {
 
 using S = Planar;
 
-constexpr int kMaxIterations = 10;                                         // of Newton's method, at most
-constexpr double kNewtonShare = 0.01;                                      // of the tolerance: a last correction that is small enough
-constexpr double kLoosestNewton = 1e-5;                                    // forces are k times positions: solved at least to this, whatever the tolerance
+constexpr int kMaxIterations = 10;                                         // upper limit for Newton's method
+constexpr double kNewtonShare = 0.01;                                      // fraction of the tolerance: a correction below this is the last
+constexpr double kLoosestNewton = 1e-5;                                    // upper limit on the tolerance of the iteration, because forces are k times positions
 
 }  // namespace
 
@@ -41,13 +41,13 @@ void AlphaStepper::start(const State& state, double h) {
   h_ = h;
 }
 
-// theory/solvers Eq. (3.7): the lag of the accelerations goes with the step; here it becomes that of a step of h.
+// theory/solvers Eq. (3.7): the lag of the accelerations is proportional to the step; this converts it to that of a step of h.
 void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
   const double share = weights_.lag() != 0 && knot.h > 0 ? h / knot.h : 1;
   for (std::size_t i = 0; i < a.size(); ++i) a[i] = weights_.lagged(share, knot.a[i], knot.law[i]);
 }
 
-// F = Q + G' law(gap, rate), or with what keeps ideal joints.
+// F = Q + G' law(gap, rate), or with the constraint forces of ideal joints.
 void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F) {
   ++counters_.evaluations;
   if (constraints_) return constraints_->find_forces(t, q, v, F);
@@ -85,7 +85,7 @@ void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h)
   }
 }
 
-// theory/solvers Eq. (3.2): where the accelerations a_ take positions and velocities.
+// theory/solvers Eq. (3.2): positions and velocities that follow from the accelerations a_.
 void AlphaStepper::place(double h) {
   for (std::size_t i = 0; i < q_.size(); ++i) {
     q_[i] = weights_.position(h, begin_.q[i], begin_.v[i], a_now_[i], a_[i]);
@@ -93,7 +93,7 @@ void AlphaStepper::place(double h) {
   }
 }
 
-// One Newton correction, theory/solvers Eq. (3.4); how large it is, in units of the tolerance.
+// One Newton correction, theory/solvers Eq. (3.4). Returns its size in units of the tolerance.
 double AlphaStepper::correct(double h) {
   const double t = begin_.t + h, new_a = 1 - weights_.accelerations, new_F = 1 - weights_.forces;
   find_states(t, q_, v_, h);
@@ -110,7 +110,7 @@ double AlphaStepper::correct(double h) {
   }
   lu_.solve(work_);
   double size = 0, sum = 0;
-  const double of_v = projects() ? 0 : h * gamma_;  // velocities on constraints are those of their projection
+  const double of_v = projects() ? 0 : h * gamma_;  // with projection, velocities follow from it
   for (std::size_t i = 0; i < a_.size(); ++i)
     for (int k = 0; k < S::kDof; ++k) {
       const double da = work_[i][k];
@@ -137,11 +137,11 @@ bool AlphaStepper::solve(double h) {
     solved = size < std::max(enough, 1e-2 * kLastBits);
     last = size;
   }
-  solved = solved || last < 1;  // at the rounding of stiff forces corrections shrink no more
+  solved = solved || last < 1;  // at the roundoff of stiff forces the corrections no longer shrink
   return solved && (!constraints_ || constraints_->project(begin_.t + h, q_, v_, a_));
 }
 
-// In units of the tolerance.
+// The estimated error of the step, in units of the tolerance.
 double AlphaStepper::error(double h) {
   double worst = 0, sum = 0;
   for (std::size_t i = 0; i < a_.size(); ++i)
@@ -164,7 +164,7 @@ bool AlphaStepper::step(double t_end) {
   largest_q_ = largest_coordinate(begin_.q);
   largest_v_ = largest_coordinate(begin_.v);
   find_begin_forces();
-  double most = 5;  // by which the next step may be longer
+  double most = 5;  // largest factor by which the next step may grow
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   borders_.begin_step();
   while (true) {
@@ -223,7 +223,7 @@ bool AlphaStepper::set_end_state(double t, double h) {
   return true;
 }
 
-// Energies by the trapezoidal rule, which is of the method's order.
+// Energies by the trapezoidal rule, which has the order of the method.
 void AlphaStepper::finish(double h) {
   end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
   end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
@@ -232,7 +232,7 @@ void AlphaStepper::finish(double h) {
   now_.a = a_;
   now_.law = end_.a;
   now_.h = h;
-  if (!constraints_ && borders_.cross(end_)) {  // goes on as from a start
+  if (!constraints_ && borders_.cross(end_)) {  // continues as from a start
     force_evaluator_.complete(end_);
     borders_.record(end_);
     now_.a = now_.law = end_.a;
@@ -241,7 +241,7 @@ void AlphaStepper::finish(double h) {
   ++counters_.steps;
 }
 
-// theory/solvers section 4: bodies on cubics, gaps and their rates on straight lines.
+// theory/solvers section 4: cubics for the bodies, straight lines for gaps and their rates.
 const State& AlphaStepper::interpolate(double t) {
   if (t == end_.t) return end_;
   if (t == begin_.t) return begin_;

@@ -1,5 +1,5 @@
-// The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), joint forces read from the laws, theory/solvers
-// section 3; or with ideal joints, theory/penalty. One family with two parameters.
+// The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), with joint forces from the laws, theory/solvers
+// section 3, or with ideal joints, theory/penalty. One family with two parameters.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace pintle {
 
 class AlphaStepper final : public Stepper {
  public:
-  /// `ideal_joints`: where there are any.
+  /// `ideal_joints`: if there are any.
   AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<ConstraintForces> ideal_joints = nullptr);
 
   void set_max_step(double h) override { max_step_ = h; }
@@ -64,9 +64,9 @@ class AlphaStepper final : public Stepper {
   ForceTangents tangents_;
   BlockLu<double, Planar::kDof> lu_;
   State begin_, end_, between_;
-  Knot before_, now_;                   // begins of the step before and of this one
+  Knot before_, now_;                   // starts of the previous step and of this one
   Vecs a_before_, a_now_;               // their accelerations with the lag of this step
-  Vecs q_, v_, a_, F_begin_, F_;        // the end that is sought
+  Vecs q_, v_, a_, F_begin_, F_;        // the end that is being solved for
   std::vector<double> z_;               // the laws' own states there
   std::vector<Planar::Motion> m_;
   std::vector<BlockVec<double, Planar::kDof>> work_;

@@ -1,4 +1,4 @@
-// The trapezoidal rule, HHT-alpha and generalised-alpha: their order, their error constants, what they do to vibrations far
+// The trapezoidal rule, HHT-alpha and generalised-alpha: their order, their error constants, their effect on vibrations much
 // faster than the step, and their energy account.
 #include "integrators/general/alpha_stepper.h"
 
@@ -30,7 +30,7 @@ State run_alpha(const System& system, const State& from, const AlphaWeights& wei
   return stepper.state();
 }
 
-// Errors in positions, velocities and joint forces with steps halved each time fall as h^2.
+// Errors in positions, velocities and joint forces fall as h^2 when steps are halved.
 void expect_second_order(const Model& model, const State& from, double duration, int n) {
   const System system = build_system(model);
   RadauStepper truth(system, 1e-10, 5);
@@ -88,10 +88,10 @@ TEST(AlphaStepper, StepsErrByTheirErrorConstants) {
       const double t = steps * h;
       return velocity ? end.v[0][0] - t * t * t / 3 : end.q[0][0] - t * t * t / 6;
     };
-    const int n = 100;  // the start without a lag has long died out by then
+    const int n = 100;  // the effect of a start without a lag has died out by then
     const double in_v = error(of_square, square, n + 1, true) - error(of_square, square, n, true);
     EXPECT_NEAR(in_v, 2 * weights.velocity_error() * h * h * h, 1e-11) << name;
-    // What the first steps left in v runs on.
+    // The error that the first steps left in v persists.
     const State end = run_alpha(of_line, sample::plain_start(line, of_line), weights, n * h, n);
     const double v_error = end.v[0][0] - n * n * h * h / 2;
     const double in_q = error(of_line, line, n + 1, false) - error(of_line, line, n, false) - h * v_error;
@@ -117,7 +117,7 @@ struct Spring {
   static double energy(const State& s) { return 0.5 * (s.v[0].squaredNorm() + s.q[0].squaredNorm()); }
 };
 
-// Whatever the step, the trapezoidal rule keeps the energy of a linear oscillator to rounding.
+// With any step, the trapezoidal rule conserves the energy of a linear oscillator to roundoff.
 TEST(AlphaStepper, TrapezoidalRuleDoesNotDamp) {
   const Spring spring;
   for (const double h : {0.05, 1.0, 40.0}) {
@@ -126,8 +126,8 @@ TEST(AlphaStepper, TrapezoidalRuleDoesNotDamp) {
   }
 }
 
-// What a vibration far faster than the step keeps of itself per step. The limit is a triple root
-// at most, so that the decay over n steps has n^2 beside it, which makes less than one part in a hundred here.
+// The factor that a vibration much faster than the step retains per step. The limit is at most a triple root,
+// so the decay over n steps has an additional factor n^2, which is less than one part in a hundred here.
 TEST(AlphaStepper, DampsFastVibrationsAsDesigned) {
   const Spring spring;
   const double h = 1e4;
@@ -167,7 +167,7 @@ TEST(AlphaStepper, ClosesItsEnergyAccountToItsOrder) {
   }
 }
 
-// Between steps: forces lie between those of the steps, and positions are a cubic's.
+// Inside a step forces lie between those of its ends, and positions are on a cubic.
 TEST(AlphaStepper, InterpolatesInsideAStep) {
   const Model model = sample::pendulum(1e3, 20);
   const System system = build_system(model);

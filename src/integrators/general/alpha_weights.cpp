@@ -13,7 +13,7 @@ double AlphaWeights::velocity_error() const {
 
 std::array<double, 2> AlphaWeights::local_errors(double h, double h_before, const Ends& x) const {
   const double slope_v = (x.v_end - x.v_begin) / h, slope_a = (x.a_end - x.a_begin) / h;
-  double q3 = slope_a, v3 = slope_a / h;  // a first step knows no more: too large a guess
+  double q3 = slope_a, v3 = slope_a / h;  // a first step has nothing better: an overestimate
   if (h_before > 0) {
     q3 = 2 * (slope_v - (x.v_begin - x.v_before) / h_before) / (h + h_before);
     v3 = 2 * (slope_a - (x.a_begin - x.a_before) / h_before) / (h + h_before);

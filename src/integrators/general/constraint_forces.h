@@ -1,5 +1,5 @@
-// Ideal joints as the methods of the alpha family see them: their forces are no laws of positions and velocities, but found in
-// the iteration of a step so that it ends on the constraints.
+// Ideal joints for the methods of the alpha family: their forces are not functions of positions and velocities, but are found
+// in the iteration of a step so that it ends on the constraints.
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@ class ConstraintForces {
  public:
   virtual ~ConstraintForces() = default;
 
-  /// Moves positions and velocities onto the constraints; then as `complete`.
+  /// Projects positions and velocities onto the constraints, then does the same as `complete`.
   virtual bool start(State& state) = 0;
-  /// Fills in everything of `state` but t, q and v. False when that cannot be found.
+  /// Fills in everything of `state` except t, q and v. Returns false if this fails.
   virtual bool complete(State& state) = 0;
-  /// Before the iteration of a step from `begin`, in which an acceleration moves its body by `reach` times itself [s^2].
+  /// Call before the iteration of a step from `begin`, in which an acceleration moves its body by `reach` times the acceleration [s^2].
   virtual void begin_step(const State& begin, double reach) = 0;
   /// All forces on the bodies at an iterate.
   virtual void find_forces(double t, const Vecs& q, const Vecs& v, Vecs& F) = 0;
-  /// Of every joint, at the last iterate: the force, and what opposes a gap. Joints that are not ideal have none.
+  /// For every joint, at the last iterate: the force, and the stiffness against a gap. Zero for joints that are not ideal.
   virtual const Vecs& force() const = 0;
   virtual const Vecs& stiffness() const = 0;
-  /// Whether steps end on the constraints, by `project` after the iteration: velocities and accelerations onto them.
+  /// Whether steps end on the constraints, with velocities and accelerations projected by `project` after the iteration.
   virtual bool projects() const { return true; }
   virtual bool project(double t, const Vecs& q, Vecs& v, Vecs& a) = 0;
   /// For the notes of the run.

@@ -100,7 +100,7 @@ bool Dopri5::step(double t_end) {
   }
 }
 
-// The embedded error as joint force: what the error of positions and velocities makes of the laws' forces, over the loads.
+// The embedded error as a joint force: by how much errors of positions and velocities change the laws' forces, over the loads.
 double Dopri5::error(double h) {
   for (std::size_t i = 0; i < q_.size(); ++i) {
     dq_[i].setZero();

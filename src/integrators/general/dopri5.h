@@ -27,7 +27,7 @@ class Dopri5 {
   const std::string& failure() const { return failure_; }
   const std::vector<LawCrossing>& crossings() const { return borders_.crossings(); }
 
-  /// Gaps, forces, accelerations and powers that belong to state.q, state.v.
+  /// Fills in the gaps, forces, accelerations and powers for state.q, state.v.
   void complete(State& state) { force_evaluator_.complete(state); }
 
  private:

@@ -84,7 +84,7 @@ TEST(Dopri5, StartsWithoutAnyLoad) {
   EXPECT_TRUE(stepper.step(1e-3)) << stepper.failure();
 }
 
-// Kinetic + potential + dissipated - supplied stays, to the trapezoidal rule of the account.
+// Kinetic + potential + dissipated - supplied stays constant, to the accuracy of the account's trapezoidal rule.
 TEST(Dopri5, ClosesItsEnergyAccount) {
   Model model = sample::oscillator();
   model.springs[0].damping = 1.5;

@@ -1,5 +1,5 @@
-// A system as the plain first-order equations y' = f(t, y) that general integrators ask for, with the exact Jacobian:
-// y = (q, v, z), z the laws' own states, and where wanted the energies dissipated and supplied as two more components. theory/solvers section 1.
+// A system as the plain first-order equations y' = f(t, y) that general integrators need, with the exact Jacobian:
+// y = (q, v, z), with z the laws' own states, and optionally the energies dissipated and supplied as two more components. theory/solvers section 1.
 #pragma once
 
 #include "integrators/force_evaluator.h"
@@ -14,36 +14,36 @@ class FirstOrderOde {
   FirstOrderOde(const System& system, Energies energies);
 
   const System& system() const { return system_; }
-  /// Length of y; of its part (q, v).
+  /// Length of y, and of its part (q, v).
   int size() const { return state_size() + (energies_ ? 2 : 0); }
   int motion_size() const { return 6 * system_.n_bodies(); }
-  /// Of (q, v, z).
+  /// Length of (q, v, z).
   int state_size() const { return motion_size() + system_.n_law_states(); }
   void flatten(const State& state, double* y) const;
-  /// Fills time, q, v and, where y has them, the energies of `state`; the rest stays as it is.
+  /// Fills in time, q, v and, if y has them, the energies of `state`; the rest is unchanged.
   void unflatten(double t, const double* y, State& state) const;
 
-  /// The switching functions, where some law changes its states at a border; otherwise none.
+  /// The switching functions, if some law changes its states at a border; otherwise none.
   int n_roots() const { return n_roots_; }
   void find_roots(double t, const double* y, double* value);
 
-  /// f(t, y); false where it is not finite.
+  /// f(t, y); returns false if it is not finite.
   bool rate(double t, const double* y, double* dy);
-  /// Finds the blocks of d(a)/dq and d(a)/dv at y. The energies' rows of the Jacobian are taken as zero: they act back
-  /// on nothing.
+  /// Finds the blocks of d(a)/dq and d(a)/dv at y. The energies' rows of the Jacobian are taken as zero: nothing depends
+  /// on the energies.
   void linearize(double t, const double* y);
-  /// A body whose accelerations may depend on those coordinates, and where the block stands.
+  /// A body whose accelerations may depend on the coordinates of another, and the place of the block.
   struct Coupling {
     int row, place;
   };
-  /// All that depend on the coordinates of body `column`, in the order of rows.
+  /// All bodies that depend on the coordinates of body `column`, in the order of rows.
   const std::vector<Coupling>& couplings(int column) const { return couplings_[column]; }
   Planar::Mat by_position(const Coupling& c) const { return inverse_mass(c.row) * tangents_.by_position(c.place); }
   Planar::Mat by_velocity(const Coupling& c) const { return inverse_mass(c.row) * tangents_.by_velocity(c.place); }
-  /// Joints whose laws have states, and what the states of one do to the accelerations of its body `side` (0 or 1): 3 x n.
+  /// Joints whose laws have states, and the derivatives of the accelerations of one's body `side` (0 or 1) by its states: 3 x n.
   const std::vector<ForceTangents::StateTangents>& states() const { return tangents_.states(); }
   Eigen::MatrixXd accelerations_by_state(const ForceTangents::StateTangents& at, int side) const;
-  /// What a body's positions, or velocities, do to the rates of the states: n x 3.
+  /// Derivatives of the rates of the states by a body's positions, or velocities: n x 3.
   static Eigen::MatrixXd rates_by_motion(const ForceTangents::StateTangents& at, int side, bool velocities);
 
  private:

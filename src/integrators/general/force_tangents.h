@@ -1,4 +1,4 @@
-// Derivatives of all forces on the bodies, joints included, by positions and by velocities: one block per coupled pair of
+// Derivatives of all forces on the bodies, including joints, by positions and by velocities: one block per coupled pair of
 // bodies, on the system's pattern. theory/solvers Eqs. (1.2), (1.3).
 #pragma once
 
@@ -18,8 +18,8 @@ class ForceTangents {
 
   explicit ForceTangents(const System& system);
 
-  /// dF/dq and dF/dv of F = Q + G' law(gap, rate, states). States that follow within a step of a method which advances them by
-  /// dz = dz' / mu are eliminated; at mu = infinity they stay what they are, and `states` says how they act. Ideal joints are as `constraints` says.
+  /// dF/dq and dF/dv of F = Q + G' law(gap, rate, states). The states are eliminated for a step of a method that advances them by
+  /// dz = dz' / mu; at mu = infinity they are constant, and `states` has their effect. Ideal joints act as given by `constraints`.
   void find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu = std::numeric_limits<double>::infinity(), const ConstraintForces* constraints = nullptr);
 
   /// A joint whose law has states of its own, at the last `find`.
@@ -30,7 +30,7 @@ class ForceTangents {
   };
   const std::vector<StateTangents>& states() const { return states_; }
 
-  /// Where block (row, column) stands among those of the pattern, fill of its elimination included.
+  /// Index of block (row, column) among those of the pattern, including the fill-in of its elimination.
   int place(int row, int column) const;
   const Mat& by_position(int place) const { return by_q_[place]; }
   const Mat& by_velocity(int place) const { return by_v_[place]; }

@@ -1,4 +1,4 @@
-// The Jacobians that the general methods use, against differences of the forces.
+// The Jacobians that the general methods use, against finite differences of the forces.
 #include "integrators/general/force_tangents.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace pintle {
 namespace {
 
-// A random state of the model that holds everything, and the plain equations there.
+// A random state of the model that contains everything, and the first-order equations there.
 struct Everything {
   const System system;
   State state;
@@ -82,7 +82,7 @@ TEST(ForceTangents, CombineIntoTheMatrixOfAnImplicitStep) {
   EXPECT_LT((dense * solution - b).norm(), 1e-9 * b.norm());
 }
 
-// The energies' rates are the powers, and nothing depends on the energies.
+// The rates of the energies are the powers, and nothing depends on the energies.
 TEST(ForceTangents, EnergiesRideAlong) {
   Everything with(FirstOrderOde::Energies::kAppended), without(FirstOrderOde::Energies::kLeftOut);
   ASSERT_EQ(with.equations.size(), without.equations.size() + 2);

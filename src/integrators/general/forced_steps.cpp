@@ -10,8 +10,8 @@
 namespace pintle {
 namespace {
 
-constexpr double kShort = 0.1;    // of the usual step: shorter ones are taken whatever their error, since a jump lies in them
-constexpr double kNext = 2;       // the next step over one that was taken so
+constexpr double kShort = 0.1;    // fraction of the usual step: shorter ones are taken with any error, since they contain a jump
+constexpr double kNext = 2;       // ratio of the next step to one that was taken in this way
 
 }  // namespace
 

@@ -6,17 +6,17 @@
 
 namespace pintle {
 
-/// A step that has become so much shorter than the usual one stands before a singular position or a jump of a force: the error does not
-/// fall with it.
+/// A step that has become much shorter than the usual one is at a singular position or a jump of a force: the error does not
+/// decrease with the step.
 class ForcedSteps {
  public:
-  /// Whether a step of h with this error over the tolerance is one of them.
+  /// Whether a step of h with this error, in units of the tolerance, is one of them.
   bool must_take(double error, double h) const;
-  /// Such a step has been taken from `t`. Returns the next one.
+  /// Call after such a step from `t`. Returns the length of the next one.
   double record_forced_step(double t, double h);
-  /// Another step has been taken.
+  /// Call after any other step.
   void record_step(double h);
-  /// For the notes of the run: how many, and when the first; nothing where there was none.
+  /// For the notes of the run: how many there were, and when the first; empty if there were none.
   std::vector<std::string> remarks() const;
 
  private:

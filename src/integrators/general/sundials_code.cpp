@@ -22,7 +22,7 @@ namespace {
 
 using Family = SundialsChoice::Family;
 
-constexpr long kMaxSteps = 20'000'000;  // steps of one call, at most
+constexpr long kMaxSteps = 20'000'000;  // upper limit on the steps of one call
 
 template <class T>
 using Owned = std::unique_ptr<T, void (*)(T*)>;
@@ -68,7 +68,7 @@ void fill_dense(const FirstOrderOde& e, SUNMatrix J) {
   }
 }
 
-// By columns, the diagonal always present, so that I - gamma J needs no other pattern.
+// Writes by columns, always with the diagonal, so that I - gamma J needs no other pattern.
 class ColumnWriter {
  public:
   explicit ColumnWriter(SUNMatrix J) : J_(J) {}
@@ -129,7 +129,7 @@ sunindextype entries(const FirstOrderOde& e) {
   sunindextype of_states = 0;
   for (const JointData& joint : e.system().joints) {
     const sunindextype n = joint.law.n_states();
-    of_states += n * (2 * (2 * 3 + 3) + n);  // by and of two bodies, and of itself
+    of_states += n * (2 * (2 * 3 + 3) + n);  // of two bodies by the states, of the states by two bodies and by themselves
   }
   return 2 * 9 * blocks + of_states + e.size();
 }
@@ -149,7 +149,7 @@ int roots(realtype t, N_Vector y, realtype* value, void* equations) {
 using JacobianFunction = int (*)(realtype, N_Vector, N_Vector, SUNMatrix, void*, N_Vector, N_Vector, N_Vector);
 using Count = int (*)(void*, long*);
 
-// One family's calls. The linear solver's are null where there is none, counts where nothing is counted.
+// The calls of one family. Those for the linear solver are null if there is none, counts if nothing is counted.
 struct Calls {
   int (*set_tolerances)(void*, realtype, N_Vector);
   int (*set_user_data)(void*, void*);
@@ -266,7 +266,7 @@ struct SundialsCode::Workspace {
     if (count) count(memory, &n);
     return static_cast<std::uint64_t>(n);
   }
-  // Added to what is there, and from nothing again.
+  // Adds the counts since the last restart.
   void add_counts(Counters& counters) const {
     counters.steps += number(calls->steps);
     counters.evaluations += number(calls->evaluations);

@@ -1,5 +1,5 @@
-// The integrators of SUNDIALS (CVODE: BDF, Adams; ARKODE: explicit and diagonally implicit Runge-Kutta) on the plain
-// equations of a system, as one piece: they have the same calls under different names.
+// The integrators of SUNDIALS (CVODE: BDF, Adams; ARKODE: explicit and diagonally implicit Runge-Kutta) on the first-order
+// equations of a system, behind one interface: they have the same calls under different names.
 // A. C. Hindmarsh et al., ACM Transactions on Mathematical Software 31 (2005) 363-396; D. R. Reynolds et al., same, 49
 // (2023) 1-26. Only in builds with SUNDIALS (CMake option PINTLE_SUNDIALS).
 #pragma once
@@ -30,7 +30,7 @@ int dormand_prince_table();
 class SundialsCode {
  public:
   /// Starts at (t, y) with a relative tolerance and an absolute one for each component of y. `equations` must outlive
-  /// it. Throws std::runtime_error when the library refuses.
+  /// it. Throws std::runtime_error if the library refuses.
   SundialsCode(const SundialsChoice& choice, FirstOrderOde& equations, double t, const std::vector<double>& y, double relative,
                const std::vector<double>& absolute);
   ~SundialsCode();
@@ -38,17 +38,17 @@ class SundialsCode {
   void set_max_step(double h);
   /// No step goes beyond t.
   void stop_at(double t);
-  /// One step of its own. False when it failed; `failure` says why.
+  /// Takes one step of its own length. Returns false if it failed; `failure` says why.
   bool step();
-  /// Steps until t is passed; y is then the solution at t. Call stop_at(t) before to end a step there.
+  /// Takes steps until t is passed; y is then the solution at t. Call stop_at(t) beforehand to end a step there.
   bool advance_to(double t);
-  /// Goes on from y at t, as from a start.
+  /// Continues from y at t, as from a start.
   void restart(double t, const std::vector<double>& y);
   /// Whether the last step ended on a root of the equations' switching functions.
   bool at_root() const;
   double t() const;
   const double* y() const;
-  /// The solution at a time inside the last step, by the code's own interpolation; null when it has none there.
+  /// The solution at a time inside the last step, by the code's own interpolation; null if there is none.
   const double* interpolate(double t);
 
   void count(Counters& counters) const;

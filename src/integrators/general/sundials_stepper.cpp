@@ -16,9 +16,9 @@
 namespace pintle {
 namespace {
 
-constexpr int kDenseBodies = 8;          // more bodies have their Newton matrices factorised by KLU
-constexpr double kBehind = 1e-7;         // of a step that ended on the root of a border without crossing it: so far the next one goes behind it
-constexpr double kDoesNotSteer = 1e100;  // absolute tolerance of the energies, which so do not steer steps [J]
+constexpr int kDenseBodies = 8;          // with more bodies, Newton matrices are factorised by KLU
+constexpr double kBehind = 1e-7;         // fraction of a step that ended on the root of a border without crossing it: how far the state is taken beyond it
+constexpr double kDoesNotSteer = 1e100;  // absolute tolerance of the energies, so that they do not control the steps [J]
 
 class SundialsStepper final : public Stepper {
  public:
@@ -67,7 +67,7 @@ class SundialsStepper final : public Stepper {
   const State& interpolate(double t) override {
     if (t == end_.t) return end_;
     if (t == begin_.t) return begin_;
-    if (borders_.crossed()) return dense_.at(std::min(t, state_before_event().t), begin_, state_before_event());  // the code has forgotten the step
+    if (borders_.crossed()) return dense_.at(std::min(t, state_before_event().t), begin_, state_before_event());  // the code no longer has the step
     const double* y = code_->interpolate(t);
     if (!y) return end_;
     equations_.unflatten(t, y, between_);
@@ -80,7 +80,7 @@ class SundialsStepper final : public Stepper {
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
 
  private:
-  // The root that a step has ended on may be just before a border, or exactly on it.
+  // The root on which a step has ended may be just before a border, or exactly on it.
   bool cross_just_behind() {
     const double* y = code_->interpolate(end_.t + kBehind * (end_.t - begin_.t));
     if (!y) return false;

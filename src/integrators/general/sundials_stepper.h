@@ -11,7 +11,7 @@ namespace pintle {
 /// Whether this build has SUNDIALS.
 bool has_sundials();
 
-/// A stepper for "ode45", "ode15s" or "ode113"; null for other words, and in a build without SUNDIALS.
+/// A stepper for "ode45", "ode15s" or "ode113"; null for other names, and in a build without SUNDIALS.
 std::unique_ptr<Stepper> make_sundials_stepper(const System& system, const std::string& method, double tolerance);
 
 }  // namespace pintle

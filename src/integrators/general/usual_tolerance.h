@@ -13,7 +13,7 @@ struct UsualTolerance {
   double relative, absolute;  // [-]; [m, rad, m/s, rad/s]
   explicit UsualTolerance(double tolerance) : relative(tolerance), absolute(1e-3 * tolerance) {}
 
-  /// The error that a component may have which is a and b at the ends of a step; `largest` of all there, whose rounding it has at least.
+  /// The error allowed for a component that is a and b at the ends of a step, at least the roundoff of the `largest` component there.
   double weight(double a, double b, double largest) const {
     return relative * std::max(std::abs(a), std::abs(b)) + absolute + kLastBits * largest;
   }

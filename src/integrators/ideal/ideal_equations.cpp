@@ -16,14 +16,14 @@ namespace {
 using S = Planar;
 
 constexpr int kOpening = 1;      // component of a mesh
-constexpr int kRefinements = 1;  // of the multipliers, against the accelerations that they give
-constexpr int kMaxClosing = 12;  // Newton iterations on the loops, at most
+constexpr int kRefinements = 1;  // of the multipliers, from the accelerations that they give
+constexpr int kMaxClosing = 12;  // upper limit on Newton iterations to close the loops
 
-constexpr int kMostModes = 300;       // rows for which eigenvectors are taken; beyond, redundant rows are left out
-constexpr double kDamped = 1e-9;      // pivots below it are lifted, so that forces stay finite at singular positions ...
-constexpr double kMisfit = 30;        // ... and below the square of so many times the misfit that redundant rows leave
+constexpr int kMostModes = 300;       // up to this many rows eigenvectors are computed; with more, redundant rows are dropped
+constexpr double kDamped = 1e-9;      // pivots below this are raised, so that forces stay finite at singular positions ...
+constexpr double kMisfit = 30;        // ... and those below the square of this multiple of the misfit that redundant rows leave
 
-// What pushes from outside, as the pressures in a cylinder do. Friction and stops beside it have states, which these equations do not carry.
+// Forces from outside, such as the pressures in a cylinder. Friction and stops of the joint have states, which these equations do not carry.
 S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
   LawInput<double> in{};
   in.t = t;
@@ -224,7 +224,7 @@ void IdealEquations::find_reactions(State& state) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
 }
 
-// By a force of a joint on its bodies.
+// Adds the accelerations due to a force of a joint on its bodies.
 void IdealEquations::accelerate(int joint, const S::Vec& force, Vecs& a) const {
   const Placement& at = system_.joints[joint].at;
   for (const auto& [body, G] : {std::pair{at.a, r_[joint].GA()}, std::pair{at.b, r_[joint].GB()}})
@@ -240,7 +240,7 @@ Eigen::VectorXd IdealEquations::reactions_to_unit_opening_force(int joint) const
   return reactions;
 }
 
-// The teeth's reactions f, which are f0 without what they do to the bearings, from f = f0 + C |f|, for the signs of f that agree with it.
+// Solves f = f0 + C |f| for the teeth's reactions f, with signs that agree with the result; f0 are the reactions without their effect on the bearings.
 bool IdealEquations::find_reaction_dependent_forces(const Vecs& applied, State& state) const {
   const auto n = static_cast<Eigen::Index>(teeth_.size());
   Eigen::MatrixXd C(n, n);
@@ -282,7 +282,7 @@ bool IdealEquations::complete(State& state) {
   return state.a.empty() || std::isfinite(state.a[0].sum());
 }
 
-// Gaps and rates, and the forces of joints that have a law; what ideal joints keep is exactly closed.
+// Gaps, rates, and the forces of joints that have a law. Components constrained by ideal joints are exactly closed.
 void IdealEquations::fill_joints(State& state) {
   for (int j = 0; j < system_.n_joints(); ++j) {
     state.gap[j] = r_[j].gap;
@@ -314,12 +314,12 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
       largest = std::max(largest, std::abs(missing[k]));
     }
     if (!factorize()) return false;
-    if (n_redundant_ > 0) {  // what can be closed
+    if (n_redundant_ > 0) {  // only what can be closed
       const auto V = modes_.eigenvectors().rightCols(scale_.size() - n_redundant_);
       largest = (V * (V.transpose() * scale_.cwiseProduct(missing))).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     }
     if (largest <= kLastBits * size_) return true;
-    if (!(largest < before)) return largest <= 1e3 * kLastBits * size_;  // rounding, or no way to close
+    if (!(largest < before)) return largest <= 1e3 * kLastBits * size_;  // roundoff, or the loops cannot be closed
     before = largest;
     solve(missing, multipliers);
     push(multipliers, q);                                                                   // (1.4)

@@ -1,12 +1,12 @@
-// Ideal joints: constraints with Lagrange multipliers, kept on their manifold, theory/ideal, or constraints with penalties,
+// Ideal joints: constraints with Lagrange multipliers, projected onto their manifold, theory/ideal, or constraints with penalties,
 // theory/penalty.
 //
 //     M a = Q + G' f,   G a + bias = 0      for the accelerations a and the joint forces f of an instant
 //
-// G has a row for every gap component that an ideal joint keeps. Joints that are not ideal act by their law. The rows'
-// matrix G M^-1 G' is sparse along the joint graph and factorised by LDL'. With redundant rows its eigenvectors are taken,
-// as many as there are independent rows: the loops close as well as they can, and the forces are the smallest that do.
-// A penalty alpha adds 1/alpha to the diagonal, whatever the rows are: theory/penalty Eq. (1.4). So dependent rows need no care.
+// G has a row for every gap component that an ideal joint constrains. Joints that are not ideal act by their law. The rows'
+// matrix G M^-1 G' is sparse along the joint graph and factorised by LDL'. With redundant rows its eigenvectors are used,
+// as many as there are independent rows: the loops close as well as they can, with the smallest forces that do so.
+// A penalty alpha adds 1/alpha to the diagonal, theory/penalty Eq. (1.4). So dependent rows need no special treatment.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -21,10 +21,10 @@
 
 namespace pintle {
 
-/// The force of a joint that keeps its law, with what pushes it from outside. Friction and the like have states, which these equations do
+/// The force of a joint that keeps its law, including forces from outside. Friction and the like have states, which these equations do
 /// not carry.
 Planar::Vec force_without_states(const JointData& joint, double t, const JointKinematics& r);
-/// Supplied and lost power of a state that is complete but for them.
+/// Fills in the supplied and lost power of a state that is otherwise complete.
 void find_powers(const System& system, const std::vector<Planar::Motion>& m, State& state);
 
 /// Whether this component of the joint's gap is a constraint.
@@ -32,7 +32,7 @@ bool is_constrained(const JointData& joint, int component);
 
 class IdealEquations {
  public:
-  /// Takes the rows from JointData::ideal and JointData::redundant. `equations`: kIdeal; kPenalty, where forces are what penalties make of the
+  /// Takes the rows from JointData::ideal and JointData::redundant. `equations`: kIdeal; kPenalty, where penalties give the forces from the
   /// constraints' accelerations, rates and violations; kAugmentedLagrangian, where penalties only serve to find the multipliers.
   explicit IdealEquations(const System& system, Equations equations = Equations::kIdeal, const PenaltySettings& penalty = {});
 
@@ -41,45 +41,45 @@ class IdealEquations {
   };
   const std::vector<Row>& rows() const { return rows_; }
 
-  /// Fills in everything of `state` but t, q and v: accelerations, joint forces, gaps (those kept are zero), powers. False
-  /// when the rows' matrix cannot be factorised.
+  /// Fills in everything of `state` except t, q and v: accelerations, joint forces, gaps (constrained ones are zero), powers. Returns
+  /// false if the rows' matrix cannot be factorised.
   bool complete(State& state);
-  /// Of `complete` only what needs no multiplier: gaps, forces of joints that have a law, and in state.a the forces on the bodies with them.
+  /// The part of `complete` that needs no multipliers: gaps, forces of joints that have a law, and in state.a the forces on the bodies including these.
   void find_applied_forces(State& state);
-  /// on_bodies += G' f, of the components that ideal joints keep and of what follows from them, where `find_applied_forces` was asked last.
+  /// on_bodies += G' f, for the constrained components and the forces that follow from them, at the state of the last `find_applied_forces`.
   void add_constraint_forces(Vecs& force, Vecs& on_bodies) const;
-  /// Gaps are those at this position and motion from now on.
+  /// Sets the position and motion at which gaps are taken from now on.
   void look_at(double t, const Vecs& q, const Vecs& v) { read(t, q, v); }
   const Planar::Vec& gap(int joint) const { return r_[joint].gap; }
 
-  /// The shortest displacement, in the mass norm, that closes the gaps, and the same for velocities. False when the loops
+  /// Closes the gaps by the smallest displacement in the mass norm; the same for velocities. Returns false if the loops
   /// cannot be closed, or not from here.
   bool close_positions(double t, Vecs& q);
   bool close_velocities(double t, const Vecs& q, Vecs& v);
-  /// Looks at q for `project_onto_tangent`. False when the rows' matrix cannot be factorised.
+  /// Prepares `project_onto_tangent` at q. Returns false if the rows' matrix cannot be factorised.
   bool find_tangent(double t, const Vecs& q);
-  /// Takes from a displacement of the position last looked at what changes gaps: what is left is nearest to it in the mass norm.
+  /// Removes from a displacement, at the position last evaluated, the part that changes gaps. What is left is nearest to it in the mass norm.
   void project_onto_tangent(Vecs& displacement) const;
   bool close_accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a);
 
-  /// With penalties: the mass that resists a row, at the first position asked about, and its penalty [kg or kg*m^2]. theory/penalty Eq. (1.2).
+  /// With penalties: the mass that resists a row, at the first position evaluated, and its penalty [kg or kg*m^2]. theory/penalty Eq. (1.2).
   double resisting_mass(std::size_t row) const { return first_scale_[row] * first_scale_[row]; }
   double penalty(std::size_t row) const { return penalty_.factor * resisting_mass(row); }
-  /// Looks at the gaps of what ideal joints keep, at the position last asked about. The largest so far: of lengths [m] and of angles [rad].
+  /// Updates the largest violation so far, of lengths [m] and of angles [rad], from the constrained gaps at the position last evaluated.
   void measure_violation();
-  /// As a remark on a method.
+  /// The violation as a remark on a method.
   std::string violation_text(const std::string& method) const;
 
-  /// How independent the rows are: the root of the smallest pivot of their scaled matrix, 1 when they are orthogonal and 0
+  /// How independent the rows are: the root of the smallest pivot of their scaled matrix, 1 if they are orthogonal and 0
   /// at a singular position [-].
   double independence(double t, const Vecs& q);
-  /// The same at the position last asked about.
+  /// The same at the position last evaluated.
   double independence() const;
-  /// Takes what redundant rows leave open at the closed position q into account. Call once, before steps.
+  /// Accounts for the gaps that redundant rows leave open at the closed position q. Call once, before any steps.
   void measure_misfit(double t, const Vecs& q);
-  /// As others of the same system have found it.
+  /// Takes over the misfit that other equations of the same system have measured.
   void take_misfit(const IdealEquations& other) { damped_ = other.damped_; }
-  /// The rows' combination that is closest to none at all, of unit norm, at the position last asked about.
+  /// The combination of rows, of unit norm, that is closest to zero, at the position last evaluated.
   Eigen::VectorXd nearest_dependency() const;
 
  private:
@@ -104,11 +104,11 @@ class IdealEquations {
   struct Teeth {
     int joint, row;
   };
-  std::vector<Teeth> teeth_;     // ideal joints part of whose force follows from the reaction, that of a row: teeth with a pressure angle
+  std::vector<Teeth> teeth_;     // ideal joints with a force that follows from the reaction of a row: teeth with a pressure angle
   Equations equations_;
   PenaltySettings penalty_;
   std::vector<Row> rows_;
-  struct Product {  // of two rows over a body they share
+  struct Product {  // of two rows, through a body they share
     int entry, row, other, side, other_side, body;
   };
   std::vector<Product> products_;
@@ -116,17 +116,17 @@ class IdealEquations {
   std::vector<int> row_of_entry_, column_of_entry_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
   std::vector<Eigen::RowVector3d> jacobian_;
-  Eigen::VectorXd scale_, first_scale_;  // roots of the masses that resist the rows: here, and where they were first asked for
+  Eigen::VectorXd scale_, first_scale_;  // roots of the masses that resist the rows: here, and at the first position
   std::array<double, 2> violation_{};
   std::vector<Planar::Motion> m_;
   std::vector<JointKinematics> r_;
   Vecs still_;
   double size_ = 1, smallest_pivot_ = 1, damped_ = 1e-9;
-  int n_redundant_ = 0;                 // rows too many, when all are kept
+  int n_redundant_ = 0;                 // number of redundant rows, if all rows are kept
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes_;
 };
 
-/// Positions and velocities of a start onto the constraints, whatever keeps them afterwards.
+/// Projects the positions and velocities of a start onto the constraints, regardless of what enforces these afterwards.
 bool close_loops(const System& system, State& state);
 
 }  // namespace pintle

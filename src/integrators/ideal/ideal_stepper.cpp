@@ -16,12 +16,12 @@ namespace {
 using S = Planar;
 using namespace dormand_prince;
 
-constexpr double kLongest = 4;           // of the last step away from singular positions: beside them the error that counts may be next to none
-constexpr double kCrossing = 0.1;        // of the tolerance times the usual step: so short a step is taken over a jump of a force
-constexpr double kNearJump = 1e-4;       // of the usual step: rejected steps that are this short are looked at for jumps
-constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
+constexpr double kLongest = 4;           // upper limit, as a multiple of the last step away from singular positions: near them the error that counts may be almost zero
+constexpr double kCrossing = 0.1;        // fraction of the tolerance times the usual step: a step this short is taken across a jump of a force
+constexpr double kNearJump = 1e-4;       // fraction of the usual step: rejected steps this short are checked for jumps
+constexpr double kLeastCrossing = 1e-8;  // lower limit on such steps, as a fraction of the usual step: shorter ones are lost in the rounding of velocities over the step
 
-// Joints that do not give way cannot follow a target that jumps.
+// Rigid joints cannot follow a target that jumps.
 std::string jump_text(const TargetJump& jump, const JointData& joint) {
   const bool turns = joint.driven == S::kTurn;
   const std::string change = jump.position != 0 ? fmt::format("jump by {:.4g} {}", jump.position, turns ? "rad" : "m") : fmt::format("change its speed by {:.4g} {} at once", jump.rate, turns ? "rad/s" : "m/s");
@@ -57,7 +57,7 @@ void IdealStepper::start(const State& state, double h) {
   raise_above_rounding();
 }
 
-// No step resolves a part of what rounding makes of the forces of the joints that keep their laws, as of a belt that is taut without load.
+// No step can resolve less than the roundoff in the forces of joints that keep their laws, such as a belt that is taut without load.
 void IdealStepper::raise_above_rounding() {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
@@ -74,7 +74,7 @@ void IdealStepper::raise_above_rounding() {
   for (std::size_t i = 0; i < rounding.size(); ++i) raise_scale(system_.bodies[i], S::Vec(rounding[i] / tolerance_), scale_.body[i]);
 }
 
-// Where next to nothing acts yet, as from a motor that is switched on slowly, no force is large enough to measure errors by: the loads are those that come in
+// If almost nothing acts yet, as with a motor that is switched on slowly, no force is large enough as a reference for errors: the loads are then those of
 // the first step.
 void IdealStepper::foresee_loads(double h) {
   std::vector<S::Motion> m;
@@ -103,11 +103,17 @@ bool IdealStepper::step(double t_end) {
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = step_ratio(e);
+<<<<<<< HEAD
     if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e))
       if (const int crossed = crossed_jump(); crossed >= 0) jump_ = crossed, jump_ahead = true;
     // Over the jump; or up to where nothing but rounding is left of the way to it.
+=======
+    const bool jumps = e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e) && crosses_jump();
+    jump_ahead = jump_ahead || jumps;
+    // Across the jump, or up to where only roundoff is left of the distance to it.
+>>>>>>> 715a9022d52a6b48a582e9985340d68237de652b
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
-    const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
+    const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that a step over the singular position may be
     const bool good = e <= 1 || crossing || shortest;
     if (const double seen = good ? share_of_step(h, t_end) : 1; seen < 1) {
       ++counters_.rejected;
@@ -115,7 +121,7 @@ bool IdealStepper::step(double t_end) {
       continue;
     }
     const double end = end_of_step(begin_.t, h, stop);
-    if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // up to there, and no farther
+    if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // end the step there
       if (jump->t <= begin_.t + 16 * rounding) {
         failure_ = jump_text(*jump, system_.joints[static_cast<std::size_t>(jump->joint)]);
         return false;
@@ -127,7 +133,7 @@ bool IdealStepper::step(double t_end) {
       h_ = crossing ? kCrossing * smooth_h_ : h * factor;
       if (closed_) h_ = std::min(h_, kLongest * usual_h_);
       else if (!crossing) usual_h_ = h;
-      if (at_once) smooth_h_ = std::max(h, kForget * smooth_h_);  // steps that come to a jump nearer and nearer are short because of it
+      if (at_once) smooth_h_ = std::max(h, kForget * smooth_h_);  // steps that approach a jump are short because of it
       return true;
     }
     ++counters_.rejected;
@@ -136,15 +142,21 @@ bool IdealStepper::step(double t_end) {
   }
 }
 
-// Over the straight way from the start of the step to its last stage.
+// Along the straight line from the start of the step to its last stage.
 double IdealStepper::share_of_step(double h, double t_end) {
   system_.motions(stage_.q, stage_.v, stage_m_);
   return bends_.share_of_step(begin_.t, h, t_end, begin_m_, stage_m_);
 }
 
+<<<<<<< HEAD
 // The switching function that the step crosses, or starts at; -1: none. The embedded error of a jump does not fall with the step; what it does to velocities does. A step may begin at one, as that of t = 0 does where a motor starts.
 int IdealStepper::crossed_jump() const {
   if (!system_.has_branches()) return -1;
+=======
+// The embedded error of a jump does not decrease with the step; its effect on velocities does. A step may begin at a jump, as that at t = 0 does where a motor starts.
+bool IdealStepper::crosses_jump() const {
+  if (!system_.has_branches()) return false;
+>>>>>>> 715a9022d52a6b48a582e9985340d68237de652b
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
@@ -158,8 +170,8 @@ int IdealStepper::crossed_jump() const {
   return -1;
 }
 
-// Puts the stage onto the branch of the motion: where the branch's tangent at the start of the step says as much as the stage. The nearest
-// closed position may be on another branch, or distorted by it; Taylor's series leads to one on this. theory/ideal Eq. (3.3).
+// Puts the stage on the branch of the motion, where it has the same component along the branch's tangent at the start of the step. The nearest
+// closed position may be on another branch, or distorted by it; Taylor's series leads to one on this branch. theory/ideal Eq. (3.3).
 bool IdealStepper::onto_branch() {
   constexpr int kPasses = 3;  // projections of a stage onto its branch of the motion
   const double after = stage_.t - begin_.t;
@@ -176,8 +188,8 @@ bool IdealStepper::onto_branch() {
   return equations_.close_velocities(stage_.t, stage_.q, stage_.v) && equations_.complete(stage_);
 }
 
-// Towards a singular position the rates of states that do not close their loops grow beyond all bounds, those on the motion's branch do
-// not: there every stage is closed.
+// Towards a singular position the rates of states with open loops grow without bound; those on the branch of the motion do
+// not. So every stage is closed there.
 bool IdealStepper::take_stages(double h) {
   const double suspicious = kSuspicious * most_independent_;
   closed_ = is_near_singular_position();
@@ -188,7 +200,7 @@ bool IdealStepper::take_stages(double h) {
   return find_tangent() && evaluate_stages(h);
 }
 
-// That of the branch at the start of the step, by equations of its own: others look at the stages meanwhile.
+// The tangent of the branch at the start of the step, with equations of its own: the others are in use for the stages.
 bool IdealStepper::find_tangent() {
   if (!at_begin_) {
     at_begin_ = std::make_unique<IdealEquations>(system_);
@@ -228,7 +240,7 @@ bool IdealStepper::onto_constraints(State& state) {
   return equations_.close_positions(state.t, state.q) && equations_.close_velocities(state.t, state.q, state.v) && equations_.complete(state);
 }
 
-// The last stage stands at the end of the step; from there onto the constraints, but where branches of the motion meet: the
+// The last stage is at the end of the step. It is projected onto the constraints, except where branches of the motion meet: the
 // nearest point may be on the wrong one.
 bool IdealStepper::finish(double t, double h) {
   end_.t = t;
@@ -253,8 +265,8 @@ bool IdealStepper::finish(double t, double h) {
   return true;
 }
 
-// The embedded error as load: what would give it as an acceleration over the step, over the loads of the body. Where stages are closed, only
-// what moves the mechanism: the rest is closed again, and grows towards a singular position.
+// The embedded error as a load: the one that would cause it as an acceleration over the step, relative to the loads of the body. If stages are
+// closed, only the part that moves the mechanism counts: the rest is closed again, and grows towards a singular position.
 double IdealStepper::error(double h) {
   for (std::size_t i = 0; i < error_q_.size(); ++i) {
     error_q_[i].setZero();

@@ -1,6 +1,6 @@
 // Time integration with ideal joints: Dormand-Prince 5(4) on the accelerations from the multipliers, with positions and
-// velocities projected onto the constraints after every step, theory/ideal section 2; or on those of the penalties, with nothing
-// projected, theory/penalty section 1.
+// velocities projected onto the constraints after every step, theory/ideal section 2; or on those from penalties, without
+// projection, theory/penalty section 1.
 #pragma once
 
 #include <array>
@@ -35,9 +35,9 @@ class IdealStepper final : public Stepper {
   double unbounded_reactions() const override { return unbounded_at_; }
 
  private:
-  // Independences of the constraints, of the largest that was met.
-  static constexpr double kSuspicious = 0.5;  // above it no singular position is looked for
-  static constexpr double kFewDigits = 3e-2;  // below it forces lose too many digits, in proportion to its fourth power
+  // Independence of the constraints, as a fraction of the largest met.
+  static constexpr double kSuspicious = 0.5;  // above this no singular position is searched for
+  static constexpr double kFewDigits = 3e-2;  // below this forces lose too many digits, in proportion to its fourth power
 
   bool take_stages(double h);
   bool evaluate_stages(double h);
@@ -62,23 +62,23 @@ class IdealStepper final : public Stepper {
 
   const System& system_;
   bool projects_;
-  double tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;  // the next step; the last away from singular positions
-  double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
+  double tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;  // the next step; the last one away from singular positions
+  double smooth_h_ = 0;                                     // the last one accepted at the first attempt, or the first one proposed
   IdealEquations equations_;
-  std::unique_ptr<IdealEquations> at_begin_;                // made when a singular position is near
+  std::unique_ptr<IdealEquations> at_begin_;                // created when a singular position is near
   BendWatch bends_;
   std::vector<Planar::Motion> begin_m_, stage_m_;  // at the start of the step; at its end
   DenseOutput dense_;
   State begin_, end_, inside_, stage_;
-  struct AccurateState {        // not beside a singular position
+  struct AccurateState {        // not near a singular position
     State state;
     double independence;
   };
   std::vector<AccurateState> accurate_;
-  Vecs jerk_, branch_, error_q_, error_v_;  // of the bodies at the start of the step; places; accelerations
+  Vecs jerk_, branch_, error_q_, error_v_;  // of the bodies: at the start of the step; positions; errors as accelerations
   double unbounded_at_ = -1;                // [s]
-  double clear_h_ = 0;                      // of the shortest step over the singular position ahead [s]
-  bool closed_ = false;                     // the stages are
+  double clear_h_ = 0;                      // shortest step over the singular position ahead [s]
+  bool closed_ = false;                     // the stages are closed
   std::array<Vecs, 7> kq_, kv_;
   std::array<std::array<double, 2>, 7> power_{};  // supplied, lost [W]
   LoadScale scale_;
@@ -86,7 +86,7 @@ class IdealStepper final : public Stepper {
   std::string failure_;
   int jump_ = -1;  // switching function that a step was shortened for last
   std::vector<std::string> remarks_;
-  double most_independent_ = 0, independence_ = 0;  // the largest met; that at the end
+  double most_independent_ = 0, independence_ = 0;  // the largest met; that at the end of the step
   double least_independence_ = 0;                   // in the stages
   int n_singular_ = 0;
 };

@@ -26,7 +26,7 @@ class PenaltyForces final : public ConstraintForces {
  private:
   const System& system_;
   IdealEquations equations_;
-  Vecs none_;  // penalties are soft beside the inertia of a step: without tangents
+  Vecs none_;  // penalties are soft compared with the inertia of a step, so they need no tangents
   State iterate_;
 };
 

@@ -23,7 +23,7 @@ System ideal_system(const Model& model) {
   return system;
 }
 
-// Its crank is light, so that the motion depends on the forces.
+// With a light crank, so that the motion depends on the forces.
 Model light_four_bar() {
   Model model = sample::four_bar(1e8, 3e3);
   model.bodies[0].inertia = 1;
@@ -59,7 +59,7 @@ TEST(PenaltyEquations, ForcesAreThePenaltiesOfTheConstraints) {
   EXPECT_LT((dense.mass.cwiseProduct(a) - dense.Q - dense.G.transpose() * f).norm(), 1e-9 * f.norm());
 }
 
-// alpha of a row is the factor times the mass that resists it: of a pin between the ground and the end of a rod along the rod that of the rod.
+// alpha of a row is the factor times the mass that resists it. For a pin between the ground and the end of a rod, this is the rod's mass along the rod.
 TEST(PenaltyEquations, PenaltiesGoWithTheMassesThatResist) {
   const Model model = sample::pendulum(1e6, 500);
   const System system = ideal_system(model);
@@ -87,7 +87,7 @@ TEST(PenaltyEquations, DifferFromMultipliersByOneOverThePenalty) {
   EXPECT_NEAR(distance(soft, ideal) / distance(stiff, ideal), 10, 0.1);
 }
 
-// A second pin beside that of the follower: both carry the same, and together what one carries alone.
+// A second pin next to the follower's: both carry the same, and together as much as one carries alone.
 TEST(PenaltyEquations, DependentConstraintsShareByTheirPenalties) {
   Model one = light_four_bar(), two = one;
   Joint twin = two.joints[3];
@@ -156,7 +156,7 @@ Error augmented_error(const Model& model, const State& truth, const AlphaWeights
   return {distance(stepper.state(), truth), distance(iteration, truth)};
 }
 
-// The same in relative coordinates; forces alone.
+// The same in relative coordinates; for the forces only.
 double relative_error(const Model& model, const State& truth, const AlphaWeights& weights, double h) {
   const System system = ideal_system(model);
   TreeAugmented stepper(system, weights, 1e6);
@@ -164,7 +164,7 @@ double relative_error(const Model& model, const State& truth, const AlphaWeights
   return distance(stepper.state(), truth);
 }
 
-// Tree joints and what closes the loop alike.
+// For the joints of the tree and for those that close the loop.
 TEST(AugmentedLagrangian, RelativeCoordinatesHaveTheOrderOfTheMethod) {
   Model model = light_four_bar();
   model.springs.push_back(sample::spring("spring", false, {"ground", "O2"}, {"coupler", "B"}, 200, 3));
@@ -200,7 +200,7 @@ TEST(AugmentedLagrangian, ThePenaltyOnlyServesTheIteration) {
   EXPECT_NEAR(little.projected / much.projected, 1, 1e-3);
 }
 
-// Positions to what the iteration leaves, velocities and accelerations by their projections to rounding.
+// Positions to within what the iteration leaves; velocities and accelerations, which are projected, to roundoff.
 TEST(AugmentedLagrangian, StepsEndOnTheConstraints) {
   const Model model = light_four_bar();
   const System system = ideal_system(model);

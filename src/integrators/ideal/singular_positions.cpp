@@ -1,4 +1,4 @@
-// Positions where the constraints lose rank: steps around them, forces beside them, and what is said of them. theory/ideal section 3.
+// Positions where the constraints lose rank: steps around them, forces near them, and reports of them. theory/ideal section 3.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,27 +17,27 @@ namespace {
 using S = Planar;
 using dormand_prince::kC;
 
-constexpr double kSingular = 1e-4;       // of the largest independence met: a position counts as singular below it
-constexpr double kTooNear = 3e-4;        // of the largest: no stage lies nearer to a singular position
-constexpr double kShareBefore = 0.55;    // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
-constexpr double kNearStep = 0.8;        // steps to a singular position: nearer than so many it is stepped over, nearer than twice as many with the next step
-constexpr int kSearch = 48;              // positions tried inside a step for the one where the constraints are most dependent, at most
-constexpr double kAhead = 1e-3;          // of the step: how far inside of its ends is looked whether the independence falls
-constexpr double kUnbounded = 1e-3;      // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
+constexpr double kSingular = 1e-4;       // fraction of the largest independence met: below it a position counts as singular
+constexpr double kTooNear = 3e-4;        // fraction of the largest: no stage has less, so near to a singular position
+constexpr double kShareBefore = 0.55;    // fraction of a step over a singular position that lies before it: in the widest gap between the stages, from 0.3 to 0.8
+constexpr double kNearStep = 0.8;        // steps to a singular position: if it is nearer than this it is stepped over, if nearer than twice this, with the next step
+constexpr int kSearch = 48;              // iterations of the search inside a step for the position where the constraints are most dependent
+constexpr double kAhead = 1e-3;          // fraction of the step: how far inside its ends the independence is checked for a decrease
+constexpr double kUnbounded = 1e-3;      // fraction of the largest reaction at the last accurate state: a part that grows as 1/d counts if it is larger
 constexpr int kMostReported = 5;
-constexpr std::size_t kAccurate = 5;     // states kept whose forces have most of their digits: forces at singular positions are drawn through them
+constexpr std::size_t kAccurate = 5;     // number of states kept whose forces have most of their digits: the curve for forces at singular positions goes through them
 
 }  // namespace
 
-// Near one, but not at it, as a run may be at its start.
+// Near a singular position but not at it, as a run may be at its start.
 bool IdealStepper::is_near_singular_position() const {
   return independence_ < kSuspicious * most_independent_ && independence_ > 0.5 * kTooNear * most_independent_;
 }
 
 bool IdealStepper::is_too_near(double independence) const { return independence < kTooNear * most_independent_; }
 
-// A step of h, or one like it that leads to a singular position ahead or over it, so that no stage is near to it. The independence of the
-// constraints falls in proportion to the distance there. theory/ideal Eq. (3.2).
+// A step of h, or a similar one that leads up to a singular position ahead or over it, so that no stage is close to it. The independence of the
+// constraints falls in proportion to the distance to it. theory/ideal Eq. (3.2).
 double IdealStepper::step_around_singular_position(double h) {
   clear_h_ = 0;
   if (!is_near_singular_position()) return h;
@@ -54,7 +54,7 @@ double IdealStepper::step_around_singular_position(double h) {
   return distance < 2 * kNearStep * h ? distance - kShareBefore * h : h;
 }
 
-// Beside a singular position forces and accelerations are those of the curve through the last states that are not. theory/ideal section 3.
+// Near a singular position forces and accelerations are those of the curve through the last states that are not near it. theory/ideal section 3.
 void IdealStepper::interpolate_forces(State& state) {
   if (accurate_.size() < 2) return;
   for (Vecs* x : {&state.a, &state.force, &state.gap_accel})
@@ -75,7 +75,7 @@ void IdealStepper::interpolate_forces(State& state) {
   }
 }
 
-// Reactions that go as 1/d towards a singular position: their product with the independence d does not go to zero with it.
+// Detects reactions that grow as 1/d towards a singular position: their product with the independence d does not vanish with d.
 void IdealStepper::look_for_unbounded_reactions() {
   const std::size_t n = accurate_.size();
   if (unbounded_at_ >= 0 || n < 3) return;
@@ -92,11 +92,11 @@ void IdealStepper::look_for_unbounded_reactions() {
   if (residue > kUnbounded * d[n - 1] * largest) unbounded_at_ = end_.t;
 }
 
-// The newest, and others as far from each other as the curve through them has to reach.
+// Keeps the newest state, and others as far apart as the curve through them has to reach.
 void IdealStepper::keep_accurate() {
   if (independence_ < kFewDigits * most_independent_) {
     look_for_unbounded_reactions();
-    const Vecs a = end_.a;  // what moves the mechanism in it has all its digits, and the next step begins with it
+    const Vecs a = end_.a;  // its part that moves the mechanism has all its digits, and the next step starts from it
     interpolate_forces(end_);
     end_.a = a;
     return;

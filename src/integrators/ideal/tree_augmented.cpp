@@ -16,10 +16,10 @@ namespace {
 using S = Planar;
 using Eigen::Index;
 
-constexpr int kMaxIterations = 20;                                         // of Newton's method, at most
-constexpr double kEnough = 1e-9;                                           // a correction that is the last, over the largest coordinate: the iteration is not quadratic
-constexpr double kFactor = 1e7;                                            // of the penalties in the iteration, over what resists them in a step
-constexpr double kProjection = 1e-7;                                       // added to the rows' scaled matrix: dependent rows need no care
+constexpr int kMaxIterations = 20;                                         // upper limit for Newton's method
+constexpr double kEnough = 1e-9;                                           // last correction, as a fraction of the largest coordinate: the iteration is not quadratic
+constexpr double kFactor = 1e7;                                            // ratio of the penalties in the iteration to what resists them in a step
+constexpr double kProjection = 1e-7;                                       // added to the rows' scaled matrix, so that dependent rows need no special treatment
 constexpr int kPasses = 2;                                                 // of a projection
 
 double largest_of(const Eigen::VectorXd& x) { return std::max(1e-3, x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0); }
@@ -45,7 +45,7 @@ void TreeAugmented::start(const State& state, double h) {
   h_ = h;
 }
 
-// The forces of joints that are laws; what is kept has none yet, and its gap counts as closed.
+// The forces of joints with laws. Constrained components have no force yet, and their gaps count as closed.
 void TreeAugmented::find_law_forces(TreeState& state) {
   at_.gaps(state.gap);
   at_.rates(state.rate);
@@ -54,7 +54,7 @@ void TreeAugmented::find_law_forces(TreeState& state) {
   for (const Row& row : rows_) state.gap[index(row)] = state.rate[index(row)] = 0;
 }
 
-// theory/penalty Eq. (5.4), at the instant.
+// theory/penalty Eq. (5.4), at the current instant.
 bool TreeAugmented::factorize() {
   at_.find_matrices();
   mass_.compute(at_.H());
@@ -74,14 +74,14 @@ Eigen::VectorXd TreeAugmented::reactions_for(const Vector& missing) const {
   return scale_.cwiseProduct(rows_matrix_.solve(scale_.cwiseProduct(missing)));
 }
 
-// What rows lack of being kept, of a list for all gaps.
+// What the rows lack to be closed, from a list for all gaps.
 Eigen::VectorXd TreeAugmented::missing(const Vector& open) const {
   Vector out(static_cast<Index>(rows_.size()));
   for (std::size_t i = 0; i < rows_.size(); ++i) out[static_cast<Index>(i)] = -open[index(rows_[i])];
   return out;
 }
 
-// Accelerations and the forces of what is kept, for coordinates and rates: the multipliers that go with projected accelerations.
+// Accelerations and constraint forces for given coordinates and rates: the forces are the multipliers that go with projected accelerations.
 void TreeAugmented::complete(TreeState& state, State& out) {
   at_.place(state.t, state.y, state.u);
   find_law_forces(state);
@@ -134,7 +134,7 @@ void TreeAugmented::begin_step(double h) {
   }
 }
 
-// What laws and loads add to the matrix of Newton's method; that of inertia and of the turning of forces is left out.
+// Adds the tangents of laws and loads to the matrix of Newton's method; those of inertia and of the rotation of forces are left out.
 void TreeAugmented::add_tangents(double h) {
   const double by_y = (1 - weights_.forces) * h * h * weights_.beta(), by_u = (1 - weights_.forces) * h * weights_.gamma();
   LawTangents law;
@@ -149,7 +149,7 @@ void TreeAugmented::add_tangents(double h) {
   });
 }
 
-// One correction, theory/penalty Eqs. (5.1)-(5.3); the largest, in coordinates.
+// One correction, theory/penalty Eqs. (5.1)-(5.3). Returns the largest, in terms of coordinates.
 double TreeAugmented::correct(double h) {
   ++counters_.evaluations;
   ++counters_.newton_iterations;
@@ -258,7 +258,7 @@ void TreeAugmented::finish(double t, double h) {
   ++counters_.steps;
 }
 
-// theory/solvers section 4, of coordinates.
+// theory/solvers section 4, for coordinates.
 const State& TreeAugmented::interpolate(double t) {
   if (t == end_.t) return end_state_;
   if (t == begin_.t) return begin_state_;

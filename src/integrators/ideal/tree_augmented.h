@@ -1,5 +1,5 @@
-// The augmented Lagrangian in relative coordinates: ideal joints make a tree, whose coordinates the trapezoidal rule or HHT
-// integrates; what closes their loops is kept by multipliers and penalties, with rates and accelerations projected. theory/penalty section 5.
+// The augmented Lagrangian in relative coordinates. Ideal joints form a tree, whose coordinates the trapezoidal rule or HHT
+// integrates; multipliers and penalties close the loops, and rates and accelerations are projected. theory/penalty section 5.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -19,7 +19,7 @@ namespace pintle {
 
 class TreeAugmented final : public Stepper {
  public:
-  /// No weight for old accelerations: trapezoidal rule and HHT.
+  /// `weights` without a weight for old accelerations: trapezoidal rule and HHT.
   TreeAugmented(const System& system, const AlphaWeights& weights, double tolerance);
 
   void set_max_step(double h) override { max_step_ = h; }
@@ -36,7 +36,7 @@ class TreeAugmented final : public Stepper {
 
  private:
   using Vector = Eigen::VectorXd;
-  struct Row {  // of what closes loops
+  struct Row {  // constraint that closes a loop
     int law, component;
   };
 
@@ -68,7 +68,7 @@ class TreeAugmented final : public Stepper {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Eigen::MatrixXd newton_;
   TreeState begin_, end_, trial_, inside_;
-  Vector own_w_, law_w_, w_before_, u_before_;    // accelerations at the begin: the method's own, those of the forces; the begin before
+  Vector own_w_, law_w_, w_before_, u_before_;    // accelerations at the start: the method's own, those of the forces; at the previous start
   Vector w_begin_, w_lagged_before_;              // the same for this step
   Vector multipliers_, stiffness_;                // of rows
   double largest_y_ = 1, largest_u_ = 1, violation_ = 0;

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using S = Planar;
 
-// x and its first derivative at share s of a step, on the quintic through all three at both ends.
+// x and its first derivative at fraction s of a step, on the quintic through value, first and second derivative at both ends.
 void quintic(double s, double h, const std::array<const VectorXd*, 3>& begin, const std::array<const VectorXd*, 3>& end, VectorXd& x, VectorXd& v) {
   const double s2 = s * s, s3 = s2 * s, s4 = s3 * s;
   const VectorXd d = *end[0] - *begin[0] - h * *begin[1] - 0.5 * h * h * *begin[2];
@@ -134,7 +134,7 @@ bool TreeDopri5::step(double t_end) {
   }
 }
 
-// The embedded error as joint force and as body force, over the loads; the instant stands at the step's end.
+// The embedded error as joint force and as body force, relative to the loads; the instant is at the end of the step.
 double TreeDopri5::error(double h) {
   VectorXd dy = VectorXd::Zero(tree_->n()), du = dy;
   for (int s = 0; s < 7; ++s) {
@@ -160,8 +160,8 @@ double TreeDopri5::error(double h) {
   return std::max(worst, over_loads(system_, of_bodies, scale_) / h);
 }
 
-// Quintic curves through both ends, of coordinates and of gaps; every vibration is resolved, so that the laws at these gaps
-// are the forces.
+// Quintic curves through both ends, for coordinates and for gaps. Every vibration is resolved, so the forces follow from the
+// laws at these gaps.
 const State& TreeDopri5::interpolate(double t) {
   if (t == end_.t) return end_state_;
   if (t == begin_.t) return begin_state_;
@@ -178,7 +178,7 @@ const State& TreeDopri5::interpolate(double t) {
   quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end.gap, &end.rate, &end.accel}, now.gap, now.rate);
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
     if (!has_slip(system_.joints[tree_->laws()[l]].displacement)) continue;
-    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + kSlip;  // the slip of surfaces is no state: only its rate counts
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + kSlip;  // the slip of surfaces is not a state: only its rate counts
     now.rate[i] = cubic_hermite(s, h, begin_.rate[i], begin_.accel[i], end.rate[i], end.accel[i]);
   }
   at_.forces(now, now.force, now.law_rate);

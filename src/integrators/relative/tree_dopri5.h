@@ -1,5 +1,5 @@
-// The explicit Dormand-Prince pair over a joint tree: coordinates and rates as they stand, the joints that stay force laws
-// asked at the bodies' gaps. dopri5.h is the method for free bodies. theory/tree section 7.
+// The explicit Dormand-Prince pair over a joint tree: it integrates coordinates and rates, with the joints that remain force
+// laws evaluated at the bodies' gaps. dopri5.h is the method for free bodies. theory/tree section 7.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ class TreeDopri5 final : public Stepper {
   TreeInstant at_;
   Eigen::MatrixXd mass_matrix_;
   Eigen::LLT<Eigen::MatrixXd> mass_;
-  TreeState begin_, end_, before_event_, stage_;  // before_event_: the end, where laws have set their states there
+  TreeState begin_, end_, before_event_, stage_;  // before_event_: the end before laws set their states there
   State begin_state_, end_state_, inside_state_;
   std::array<Eigen::VectorXd, 7> ky_, ku_;
   std::array<std::vector<double>, 7> kz_;  // rates of the laws' states

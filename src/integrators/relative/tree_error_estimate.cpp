@@ -1,4 +1,4 @@
-// The error of a step over a joint tree, its end moved onto its gaps, and its inside.
+// The error of a step over a joint tree, the projection of its end onto its gaps, and its dense output.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ double largest(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs().maxC
 
 }  // namespace
 
-// theory/time Eqs. (3.12), (3.13): the bodies' forces, whatever the coordinates are.
+// theory/time Eqs. (3.12), (3.13): in forces on the bodies, regardless of the coordinates.
 bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
@@ -32,8 +32,8 @@ bool TreeRadau::error_estimate(double h, double& error) {
   return std::isfinite(error);
 }
 
-// How the joints' forces hold the bodies where a step with this frequency of its own does not resolve it: with those at its start, the
-// tree's reactions among them. Empty where it resolves everything. theory/time section 4.1.
+// How the joints' forces hold the bodies, where a step with the frequency `own` does not resolve this. Uses the forces at the start of the
+// step, including the tree's reactions. Empty if everything is resolved. theory/time section 4.1.
 VectorXd TreeRadau::find_taut(double own) const {
   std::vector<BodyPull<Planar>> pulled(system_.bodies.size());
   for (int j = 0; j < system_.n_joints(); ++j) add_pull_of(j, system_, stages_.instant(n_ - 1).pose().m, begin_state_.force[j], pulled);
@@ -62,7 +62,7 @@ double TreeRadau::gap_tail() {
   const Index m = end_at_.n_gaps();
   if (m == 0) return 0;
   MatrixXd tail = MatrixXd::Zero(m, 3);
-  for (int back = 0; back < 3; ++back)  // without the start of the step, whose error is the last step's
+  for (int back = 0; back < 3; ++back)  // without the start of the step, whose error belongs to the previous step
     for (int s = 0; s < n_; ++s) tail.col(back) += table_.stages_to_legendre(n_ - 1 - back, s) * stages_.states()[s].accel;
   const MatrixXd move = stages_.instant(n_ - 1).J() * projector_.close(tail);
   return kGapError * tail_size(over_loads(system_, move.col(0), scale_), over_loads(system_, move.col(1), scale_), over_loads(system_, move.col(2), scale_));
@@ -114,7 +114,7 @@ double TreeRadau::open_contact_error(double h) const {
                               largest_coordinate(instant.pose().q), scale_);
 }
 
-// theory/time Eq. (3.24), of the joints that are no coordinates.
+// theory/time Eq. (3.24), for the joints that are not coordinates.
 double TreeRadau::ringing_behind_event(double h) const {
   if (!control_.behind_event) return 0;
   const TreeState& last = stages_.states()[n_ - 1];
@@ -180,7 +180,7 @@ void TreeRadau::taylor_step(double h) {
   update_switching();
 }
 
-// Coordinates and rates, each in one pass, and a second where the first has left more than rounding. Eq. (6.2).
+// Projects coordinates and rates, each in one pass, and in a second one if the first leaves more than roundoff. Eq. (6.2).
 void TreeRadau::move_onto_gaps() {
   const double rounding = kLastBits * largest_coordinate(stages_.instant(n_ - 1).pose().q);
   const double rounding_of_rate = kLastBits * largest_coordinate(stages_.instant(n_ - 1).pose().v);
@@ -203,7 +203,7 @@ void TreeRadau::move_onto_gaps() {
   end_at_.place(end_.t, end_.y, end_.u);
 }
 
-// The carried gap, but the geometry's where no motion could bring it there (redundant joints). theory/time Eq. (4.3).
+// Keeps the carried gap, but takes that of the geometry if no motion can reach it (redundant joints). theory/time Eq. (4.3).
 void TreeRadau::take_gaps() {
   const double rounding = kLastBits * largest_coordinate(end_at_.pose().q);
   VectorXd now;
@@ -237,7 +237,7 @@ void TreeRadau::add_work(double h) {
   end_state_.loss_power = nodes_.power(1, n_);
 }
 
-// Powers of the share of the step from values at the nodes; what is left at the far end goes into bends. theory/time Eq. (5.1).
+// Power series in the fraction of the step, from the values at the nodes; the mismatch at the end goes into the bends. theory/time Eq. (5.1).
 void TreeRadau::find_curves() {
   const double h = end_.t - begin_.t;
   const MatrixXd to_powers = MatrixXd(table_.to_powers).transpose();
@@ -283,7 +283,7 @@ void TreeRadau::follow(double x, TreeState& out) const {
     }
 }
 
-// On the curves; rates moved onto the gaps', forces balanced with their accelerations. Eq. (6.3).
+// Evaluates the curves, projects rates onto those of the gaps, and balances forces with the gaps' accelerations. Eq. (6.3).
 const State& TreeRadau::interpolate(double t) {
   if (t == end_.t) return end_state_;
   if (t == begin_.t) return begin_state_;

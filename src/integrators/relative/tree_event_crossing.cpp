@@ -1,4 +1,4 @@
-// Where a tree and its gaps are inside a step, ahead of it and beyond its end: what its events ask for. theory/time section 7.
+// A tree and its gaps inside a step, ahead of it and beyond its end, as needed for its events. theory/time section 7.
 #include <algorithm>
 #include <cmath>
 
@@ -85,7 +85,7 @@ const std::vector<Planar::Motion>& TreeRadau::motions_after(double d) {
   return inside_at_.pose().m;
 }
 
-// Driven joints are servos or distances, none of which a coordinate of the tree replaces.
+// Driven joints are servos or distances, which are never replaced by coordinates of the tree.
 void TreeRadau::shift_gap(int joint, double d, double rate) {
   const std::vector<int>& laws = tree_->laws();
   const auto at = std::find(laws.begin(), laws.end(), joint);

@@ -104,7 +104,7 @@ void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
       accelerated[i].v = a.head<2>();
       accelerated[i].w = a[2];
     }
-    // d(G' f)/dq; d(G v)/dq, which is the rate of G too; d(G a)/dq; d(bias)/dq.
+    // d(G' f)/dq; d(G v)/dq, which is also the rate of G; d(G a)/dq; d(bias)/dq.
     const RelativePose pose = system_.pose(joint.at, pose_.m);
     const auto geometric = geometric_stiffness(joint.displacement, pose, force);
     const auto turning = rate_gradient(joint.displacement, pose, motion[0], motion[1]);
@@ -170,7 +170,7 @@ std::array<double, 2> TreeInstant::power(const TreeState& at) const {
   return out;
 }
 
-// Joints that coordinates obey have linear laws as a rule; a law with kinks among them is asked at a gap of zero.
+// Joints of the tree usually have linear laws; a law with kinks among them is evaluated at a gap of zero.
 void TreeInstant::evaluate_switching_functions(const TreeState& at, double* value) {
   spread_gaps(at);
   system_.evaluate_switching_functions(t_, pose_.m, gap_, rate_, at.law_state, sliding(), value);

@@ -1,5 +1,5 @@
-// The equations over a joint tree at one instant: bodies, gaps of the joints that stay force laws, mass matrix, what is
-// missing in the balance. theory/tree sections 3 and 5.
+// The equations over a joint tree at one instant: bodies, gaps of the joints that remain force laws, mass matrix, residual
+// of the balance. theory/tree sections 3 and 5.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-/// Coordinates, rates and accelerations of a joint tree, with what is carried of the joints that stay force laws: gap, rate,
+/// Coordinates, rates and accelerations of a joint tree, with the carried values of the joints that remain force laws: gap, rate,
 /// acceleration and force, three entries for each of `JointTree::laws`.
 struct TreeState {
   double t = 0;
@@ -19,10 +19,10 @@ struct TreeState {
   std::vector<double> law_state, law_rate;  // of the laws' own states, as in State
 };
 
-/// What depends on coordinates and rates beside the laws, at constant accelerations and law forces. theory/tree Eq. (5.4).
+/// Derivatives by coordinates and rates, except those of the laws, at constant accelerations and law forces. theory/tree Eq. (5.4).
 struct TreeSlopes {
-  Eigen::MatrixXd balance, balance_by_rate;  // of what is missing in the balance
-  Eigen::MatrixXd gap, gap_by_rate;          // of the gaps' accelerations
+  Eigen::MatrixXd balance, balance_by_rate;  // of the residual of the balance
+  Eigen::MatrixXd gap, gap_by_rate;          // of the accelerations of the gaps
 };
 
 class TreeInstant {
@@ -34,7 +34,7 @@ class TreeInstant {
   int n() const { return tree_.n(); }
   int n_gaps() const { return 3 * static_cast<int>(tree_.laws().size()); }
 
-  /// Motors that stand at a jump of theirs, from now on; none at first. The list stays the caller's and may change.
+  /// Sets the motors that are held at a jump; initially none. The list remains the caller's and may change.
   void set_sliding(const std::vector<SlidingMode>& sliding) { sliding_ = &sliding; }
   SlidingModes sliding() const { return sliding_ ? SlidingModes(*sliding_) : SlidingModes(); }
 
@@ -52,10 +52,10 @@ class TreeInstant {
   const Vecs& a() const { return a_; }
   /// e'' = G a + bias, at the accelerations given last.
   void gap_accelerations(Eigen::VectorXd& out) const;
-  /// J' (M a - Q - G' f), at the accelerations given last: what is missing in the balance.
+  /// J' (M a - Q - G' f), at the accelerations given last: the residual of the balance.
   void imbalance(const Eigen::VectorXd& f, Eigen::VectorXd& out);
 
-  /// The gaps of the geometry. How far surfaces have slipped, and how often belts are wound, it does not know: 0, or what is carried.
+  /// The gaps from the geometry, which does not know how far surfaces have slipped and how often belts are wound: 0, or the carried values.
   void gaps(Eigen::VectorXd& out, const TreeState* carried = nullptr) const;
   void rates(Eigen::VectorXd& out) const;
   /// Mass matrix, dv/du and A = G J.
@@ -67,11 +67,11 @@ class TreeInstant {
   /// At the accelerations given last and the law forces f, after `find_matrices`. Eqs. (5.7), (5.8).
   void slopes(const Eigen::VectorXd& f, TreeSlopes& out);
 
-  /// The tangents of `law` at its part of what the state carries.
+  /// The tangents of `law` at its part of the carried state.
   void linearize(int law, const TreeState& at, LawTangents& out) const;
-  /// The laws' states as those of joints that have long been as `at` says.
+  /// Sets the laws' states to those of joints that have long had the gaps and rates of `at`.
   void rest(TreeState& at) const;
-  /// The forces of all laws, and the rates of their states, at what the state carries.
+  /// The forces of all laws, and the rates of their states, at the carried state.
   void forces(const TreeState& at, Eigen::VectorXd& f, std::vector<double>& law_rate) const;
   /// Supplied and lost power [W].
   std::array<double, 2> power(const TreeState& at) const;
@@ -80,8 +80,8 @@ class TreeInstant {
   /// System::cross_borders at the carried gaps.
   bool cross_borders(const double* before, const double* after, TreeState& at, double& lost);
 
-  /// Everything of the state but its work, from what is carried; the instant must have been placed at `at`. Accelerations
-  /// and the reactions of the tree's joints are those of u' = w.
+  /// Fills in the state, except its work, from the carried values; the instant must have been placed at `at`. Accelerations
+  /// and the reactions of the tree's joints are those for u' = w.
   void write(const TreeState& at, const Eigen::VectorXd& w, State& state);
 
  private:
@@ -93,18 +93,18 @@ class TreeInstant {
   const std::vector<SlidingMode>* sliding_ = nullptr;
   double t_ = 0;
   TreePose pose_;
-  std::vector<JointKinematics> r_;  // of the joints that stay laws
+  std::vector<JointKinematics> r_;  // of the joints that remain laws
   Vecs Q_, a_, gap_, rate_;
-  Vecs on_bodies_;  // what find_unbalanced_forces finds, and other forces of the moment
+  Vecs on_bodies_;  // result of find_unbalanced_forces, and other temporary forces
   Eigen::MatrixXd H_, J_, A_;
   TreeMotionSlopes moved_;
-  Eigen::MatrixXd of_forces_, of_forces_by_rate_;  // what the forces on the bodies change by, per coordinate and per rate
+  Eigen::MatrixXd of_forces_, of_forces_by_rate_;  // derivatives of the forces on the bodies by coordinates and by rates
   Eigen::MatrixXd geometric_;
 };
 
 /// Time, coordinates and their rates of `state`.
 void read_coordinates(const JointTree& tree, const State& state, TreeState& out);
-/// The carried part of `state`: gaps, rates, accelerations and forces of the joints that stay laws.
+/// The carried part of `state`: gaps, rates, accelerations and forces of the joints that remain laws.
 void read_carried(const JointTree& tree, const State& state, TreeState& out);
 
 }  // namespace pintle

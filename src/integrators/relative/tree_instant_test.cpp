@@ -1,4 +1,4 @@
-// What Newton's method over a joint tree takes for slopes, against differences.
+// The derivatives that Newton's method uses over a joint tree, against finite differences.
 #include "integrators/relative/tree_instant.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace {
 using Eigen::VectorXd;
 using sample::random_vector;
 
-// Loads of every kind, joints of every kind as laws beside the tree, which is passed from first bodies and from second ones.
+// Loads of every kind, and joints of every kind as laws in addition to the tree, which is traversed from first bodies and from second ones.
 TEST(TreeInstant, SlopesAreDifferencesOfTheBalanceAndOfTheGaps) {
   const double h = 1e-5;
   const std::vector<std::string> trees[] = {{"g", "r", "p", "f"}, {"h", "p", "f", "s"}, {"r", "p", "f", "s"}, {"g", "s", "f"}, {}};
@@ -31,7 +31,7 @@ TEST(TreeInstant, SlopesAreDifferencesOfTheBalanceAndOfTheGaps) {
     at.accelerate(w);
     at.find_matrices();
     at.slopes(f, slopes);
-    std::vector<bool> exact(tree.laws().size());  // gaps that are no functions of the pose, of which a third derivative is left out
+    std::vector<bool> exact(tree.laws().size());  // gaps that are not functions of the pose; for functions a third derivative is left out
     int counted = 0;
     for (std::size_t l = 0; l < exact.size(); ++l) counted += exact[l] = count_functions(system.joints[tree.laws()[l]].displacement) == 0;
     ASSERT_GT(counted, 0);

@@ -1,4 +1,4 @@
-// The methods over a joint tree against each other, against those of free bodies, and the balance of every body at any time.
+// The methods over a joint tree against each other and against those for free bodies, and the balance of every body at any time.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -21,7 +21,7 @@ using sample::with_ideal;
 // Six bodies with joints and loads of every kind, some joints ideal.
 System everything(const std::vector<std::string>& ideal) { return with_ideal(build_system(sample::everything()), ideal); }
 
-// Everywhere within a turn, turning slowly; gaps as the bodies leave them.
+// Random angles within a turn, slow rates; gaps as the bodies leave them.
 State start_of(const System& system) {
   const JointTree tree(system);
   sample::Random random(11);
@@ -69,7 +69,7 @@ void expect_balance(const System& system, const State& state) {
     EXPECT_LT((system.bodies[i].mass.cwiseProduct(state.a[i]) - Q[i]).norm(), 1e-10 * (1 + largest(state.force))) << system.bodies[i].name << " " << state.t;
 }
 
-// Energy that has not come or gone. theory/time Eq. (8.1).
+// The energy of the account, which stays constant. theory/time Eq. (8.1).
 double account(const System& system, const State& state) {
   std::vector<S::Motion> m;
   system.motions(state.q, state.v, m);
@@ -124,7 +124,7 @@ TEST(TreeMethods, EveryBodyIsInBalanceAtAnyTime) {
   }
 }
 
-// Ends of steps and their insides are one curve.
+// The dense output inside a step and its ends form one curve.
 TEST(TreeMethods, TheInsideOfAStepJoinsItsEnds) {
   const System system = everything(kTrees[1]);
   for (const char* name : {"radau", "dopri5"}) {
@@ -141,7 +141,7 @@ TEST(TreeMethods, TheInsideOfAStepJoinsItsEnds) {
   }
 }
 
-// Displacements whose gaps close, forces whose accelerations are the gaps': where every mode is stiff for the question.
+// Displacements that close the gaps, and forces whose accelerations are those of the gaps, for a mu at which every mode is stiff.
 TEST(TreeProjector, ClosesGapsAndBalancesForces) {
   const System system = with_ideal(build_system(sample::four_bar(1e8, 3000)), {"O2", "A", "O4"});
   const JointTree tree(system);

@@ -42,7 +42,7 @@ bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at
   return std::isfinite(lu_.matrixLU().sum());
 }
 
-// The mass matrix of (6.4), for what gaps ask of the coordinates.
+// The mass matrix of (6.4), for the response of the coordinates to gaps.
 void TreeProjector::set_held_mass(const MatrixXd& J, const MatrixXd& H, const VectorXd& taut) {
   held_stiffness_ = J.transpose() * taut.asDiagonal() * J;
   held_mass_.compute(H + held_stiffness_);
@@ -66,7 +66,7 @@ MatrixXd TreeProjector::close(const MatrixXd& wanted) const {
   return x;
 }
 
-// w A Z^-1 of forces in the coordinates, Z that without `taut`: what it leaves in held directions is answered again.
+// w A Z^-1 applied to forces on the coordinates, with Z that without `taut`: what a pass leaves in held directions is solved for again.
 VectorXd TreeProjector::forces_for(const VectorXd& on_coordinates) const {
   VectorXd sum = VectorXd::Zero(A_.rows()), rest = on_coordinates;
   for (int pass = 0; pass <= kPasses; ++pass) {

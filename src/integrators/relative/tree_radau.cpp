@@ -17,7 +17,7 @@ TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
       tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_), open_contacts_(system), bends_(system) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
   end_at_.set_sliding(sliding_);
-  inside_at_.set_sliding(begin_state_.sliding);  // what the end of a step has left, its inside has not
+  inside_at_.set_sliding(begin_state_.sliding);  // a jump released at the end of a step is still held inside it
   stages_.set_sliding(sliding_);
   const int n = tree_->n(), m = end_at_.n_gaps();
   nodes_ = {Eigen::MatrixXd::Zero(n, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(2, n_ + 1),
@@ -28,7 +28,7 @@ bool TreeRadau::attempt(double h) {
   return stages_.solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale_, counters_);
 }
 
-// The tree takes positions and rates from the bodies; gaps and forces of the joints that stay laws are the state's.
+// The tree takes positions and rates from the bodies; gaps and forces of the joints that remain laws are those of the state.
 void TreeRadau::start(const State& state, double h) {
   end_state_ = state;
   control_.start(h);
@@ -59,7 +59,7 @@ void TreeRadau::begin_at_end() {
   begin_state_ = end_state_;
 }
 
-// What the state of the bodies says about the end, with reactions that go with u' = w.
+// Fills in the bodies' state at the end of the step, with the reactions for u' = w.
 void TreeRadau::finish_end(const VectorXd& w) {
   end_at_.write(end_, w, end_state_);
   grow_load_scale(system_, end_at_.pose().m, end_at_.Q(), end_state_, scale_);

@@ -1,4 +1,4 @@
-// The force-accurate implicit method over a joint tree: Radau IIA on coordinates, rates AND the gaps of the joints that stay
+// The force-accurate implicit method over a joint tree: Radau IIA on coordinates, rates AND the gaps of the joints that remain
 // force laws. theory/tree sections 5 to 7; the method for free bodies is radau_stepper.h.
 #pragma once
 
@@ -39,14 +39,14 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const JointTree& tree() const { return *tree_; }
 
  private:
-  static constexpr bool kEveryJointIsALaw = false;  // those of the tree have reactions
-  friend class StepControl;  // which calls what follows, up to finish_step
+  static constexpr bool kEveryJointIsALaw = false;  // joints of the tree have reactions instead
+  friend class StepControl;  // which calls the functions from here to finish_step
   double t() const { return begin_.t; }
   void begin_at_end();
   bool attempt(double h);
   double contraction() const { return stages_.contraction(); }
 
-  // tree_error_estimate.cpp: the error of a step, its end and its inside
+  // tree_error_estimate.cpp: the error of a step, its end and its dense output
   bool error_estimate(double h, double& error);
   Eigen::VectorXd find_taut(double own) const;
   /// Legendre coefficient k of a body's acceleration over the step.
@@ -66,7 +66,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   void find_curves();
   void follow(double x, TreeState& out) const;
 
-  // tree_event_crossing.cpp: what StepEvents asks for
+  // tree_event_crossing.cpp: what StepEvents needs
   friend StepEvents;
   double end_time() const { return end_.t; }
   const std::vector<Planar::Motion>& end_motions() const { return end_at_.pose().m; }
@@ -100,7 +100,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   State begin_state_, end_state_, inside_state_;
   double supplied_before_ = 0, dissipated_before_ = 0;  // of before_compensation_ [J]
   TreeNodes nodes_;
-  // The last step as powers of its share, with what the integrals miss the far end by; found when first asked for.
+  // The last step as power series in the fraction of the step, with the mismatch of the integrals at its end; computed on first use.
   struct Curves {
     double from = 0, to = 0;
     Eigen::MatrixXd w, accel, force, power;

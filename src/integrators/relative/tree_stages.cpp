@@ -33,7 +33,7 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   place(begin, h);
   find_forces(scale);
   contraction_.start();
-  double first = 0;  // correction, in tolerances
+  double first = 0;  // first correction, in tolerances
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals();
     counters.evaluations += n_;
@@ -75,7 +75,7 @@ void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* befo
   }
 }
 
-// Where the stages are, from their accelerations. Eq. (5.2).
+// Positions and rates of the stages from their accelerations. Eq. (5.2).
 void TreeStages::place(const TreeState& begin, double h) {
   for (int s = 0; s < n_; ++s) {
     TreeState& state = state_[s];
@@ -99,7 +99,7 @@ void TreeStages::place(const TreeState& begin, double h) {
   }
 }
 
-// Joint forces from gaps and rates. How much they have changed, over the scale of the bodies that they act on.
+// Joint forces from gaps and rates. Returns how much they have changed, relative to the scale of the bodies that they act on.
 double TreeStages::find_forces(const LoadScale& scale) {
   double worst = 0, sum = 0;
   for (int s = 0; s < n_; ++s) {
@@ -121,7 +121,7 @@ double TreeStages::find_forces(const LoadScale& scale) {
   return std::isfinite(sum) ? worst : std::numeric_limits<double>::infinity();
 }
 
-// What is missing in the equations. Eq. (5.3).
+// Residuals of the equations. Eq. (5.3).
 void TreeStages::find_residuals() {
   for (int s = 0; s < n_; ++s) {
     at_[s].imbalance(state_[s].force, missing_[s]);
@@ -171,7 +171,7 @@ bool TreeStages::factorize(double h) {
   return good;
 }
 
-// The body forces of the answers to what is missing in the laws' states. theory/time Eq. (3.16).
+// The forces due to the residuals of the laws' states. theory/time Eq. (3.16).
 template <class Scalar>
 TreeStages::Vector<Scalar> TreeStages::pushes(const Mode<Scalar>& mode, const Vector<Scalar>& missing) const {
   Vector<Scalar> force = Vector<Scalar>::Zero(at_[0].n_gaps());
@@ -197,7 +197,7 @@ TreeStages::Vector<Scalar> TreeStages::states_moved(const Mode<Scalar>& mode, co
   return move;
 }
 
-// One Newton correction: into the diagonal frame, the solve, back. Eq. (5.6). Its size as body forces over the scale.
+// One Newton correction: into the diagonal frame, solution, and back. Eq. (5.6). Returns its size as body forces over the scale.
 double TreeStages::correct(const LoadScale& scale) {
   if (tree_.n() == 0) return 0;
   const Index n = tree_.n(), m = at_[0].n_gaps();

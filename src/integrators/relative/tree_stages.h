@@ -23,18 +23,18 @@ class TreeStages {
  public:
   TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance);
 
-  /// Solves the step of h from `begin`; the prediction continues `before`, the step before it of last_h, where there is one.
+  /// Solves the step of h from `begin`. The prediction extrapolates `before`, the previous step of length last_h, if there is one.
   bool solve(const TreeState& begin, double h, const TreeNodes* before, double last_h, const LoadScale& scale, Counters& counters);
 
-  /// Motors that stand at a jump; see TreeInstant.
+  /// Motors that are held at a jump; see TreeInstant.
   void set_sliding(const std::vector<SlidingMode>& sliding);
 
   const std::vector<TreeState>& states() const { return state_; }
   TreeInstant& instant(int stage) { return at_[stage]; }
   const TreeInstant& instant(int stage) const { return at_[stage]; }
-  /// By how much the last iterations shrank the error of the stages; 0: it took only one.
+  /// The contraction rate of the last iterations on the stages; 0 if there was only one iteration.
   double contraction() const { return contraction_.seen(); }
-  /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
+  /// Residual of joint j's equation at the end of the step [m/s^2 or rad/s^2].
   double residual(int j) const;
 
  private:
@@ -48,7 +48,7 @@ class TreeStages {
 
   template <class Scalar>
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  /// One of the systems that the equations fall apart into.
+  /// One of the systems into which the equations decouple.
   template <class Scalar>
   struct Mode {
     Scalar mu;
@@ -73,7 +73,7 @@ class TreeStages {
   double tolerance_;
   NewtonContraction contraction_;
   Predictor predictor_;
-  bool relinearizes_;  // a law that is linearised again is there
+  bool relinearizes_;  // there is a law that is linearised again
   std::vector<TreeState> state_;
   std::vector<TreeInstant> at_;
   std::vector<Eigen::VectorXd> missing_, missing_gap_, missing_state_;

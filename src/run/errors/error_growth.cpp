@@ -7,16 +7,16 @@
 namespace pintle {
 namespace {
 
-constexpr double kOfLargest = 0.1;                 // of the largest difference: the same where it is that one that tells what they can become. Halved or doubled, tests/models/two_bouncing_pins.toml misses its tolerance at 1e-3 without a horizon
-constexpr double kFitted = 1e-6;                   // of that: the smallest difference that is fitted
-constexpr int kMostBlocks = 32, kLeastBlocks = 8;  // of rows, whose largest difference is fitted; with fewer nothing is fitted
-constexpr double kLeastGain = 4.6;                 // of the logarithm over the fit: a factor of a hundred
-constexpr double kLeastBend = -0.28;               // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
-constexpr double kMostPower = 4;                   // of time: errors of phases grow with its first or second, forces' with little more
-constexpr double kSure = 5;                        // standard errors that a rate is above zero
-constexpr double kSureOfPlaces = 3;                // the same of places, which errors climb in stairs where pins graze their bush. Doubled, that model has a horizon at no tolerance; halved, nothing changes
-constexpr double kSurePair = 3;                    // standard errors that two rates may be apart
-constexpr double kSameRate = 0.3;                  // of the rate, that two rates may be apart besides
+constexpr double kOfLargest = 0.1;                 // saturation as a fraction of the largest difference, where that one shows how large they can become. Halved or doubled, tests/models/two_bouncing_pins.toml misses its tolerance at 1e-3 without a horizon
+constexpr double kFitted = 1e-6;                   // smallest difference that is fitted, as a fraction of saturation
+constexpr int kMostBlocks = 32, kLeastBlocks = 8;  // blocks of rows, whose largest differences are fitted; with fewer nothing is fitted
+constexpr double kLeastGain = 4.6;                 // least rise of the logarithm over the fit: a factor of a hundred
+constexpr double kLeastBend = -0.28;               // ratio of the second to the first Legendre coefficient: 0 for an exponential, -0.56 for any power of time
+constexpr double kMostPower = 4;                   // power of time: phase errors grow with the first or second power, those of forces with little more
+constexpr double kSure = 5;                        // standard errors by which a rate must be above zero
+constexpr double kSureOfPlaces = 3;                // the same for positions, whose errors grow in stairs where pins graze their bush. Doubled, that model has a horizon at no tolerance; halved, nothing changes
+constexpr double kSurePair = 3;                    // standard errors by which two rates may differ
+constexpr double kSameRate = 0.3;                  // additional difference allowed, as a fraction of the rate
 
 struct Blocks {
   int n = 0;
@@ -43,7 +43,7 @@ struct Line {
   double mean_x = 0, mean_y = 0, slope = 0, error = 0, squares = 0;  // squares of the residuals
 };
 
-// Least squares; neighbouring residuals are alike, which makes the standard error larger. Eq. (6.6).
+// Least squares. Neighbouring residuals are correlated, which increases the standard error. Eq. (6.6).
 Line fit_line(int n, const std::array<double, kMostBlocks>& x, const std::array<double, kMostBlocks>& y) {
   Line line;
   for (int i = 0; i < n; ++i) {
@@ -69,10 +69,10 @@ Line fit_line(int n, const std::array<double, kMostBlocks>& x, const std::array<
   return line;
 }
 
-// By how much the rate over another stretch as long would differ, where growth comes in steps of any size: all that is behind a step is higher by it,
-// which residuals about a line show little of. The variance of a sum of such steps, with neighbours weighed as by Newey and West. Eq. (6.8a).
+// By how much the rate over another interval of the same length would differ, where growth comes in steps of any size. Everything after a step is higher
+// by it, which the residuals about a line hardly show. This is the variance of a sum of such steps, with the neighbour weights of Newey and West. Eq. (6.8a).
 double scatter_of_steps(const Blocks& b) {
-  constexpr int kNeighbours = 3;  // on either side, whose increments count as alike: with none noise about a line would make half the rate
+  constexpr int kNeighbours = 3;  // on either side, whose increments count as correlated: with none, noise about a line would make half the rate
   const int n = b.n - 1;
   const double mean = (b.y[n] - b.y[0]) / n;
   double sum = 0;
@@ -82,10 +82,10 @@ double scatter_of_steps(const Blocks& b) {
   return std::sqrt(std::max(0.0, sum) * n / (n - 1)) / (b.t[n] - b.t[0]);
 }
 
-// Second over first coefficient of a series of Legendre polynomials over the fitted part. Eq. (6.7).
+// Ratio of the second to the first coefficient of a Legendre series over the fitted part. Eq. (6.7).
 double bend(const Blocks& b) {
   const double middle = 0.5 * (b.t[0] + b.t[b.n - 1]), half = 0.5 * (b.t[b.n - 1] - b.t[0]);
-  // Of 1, s, P2(s) by Gram and Schmidt on the blocks.
+  // Gram-Schmidt orthogonalization of 1, s, P2(s) on the blocks.
   double s_mean = 0, p_mean = 0;
   for (int i = 0; i < b.n; ++i) {
     const double s = (b.t[i] - middle) / half;
@@ -112,13 +112,13 @@ double bend(const Blocks& b) {
 }  // namespace
 
 double ErrorGrowth::extrapolated(double t, double with_rate) const {
-  constexpr double kMost = 600;  // exponent, at most: keeps the number finite
+  constexpr double kMost = 600;  // upper limit on the exponent: keeps the number finite
   return level * std::exp(std::min(kMost, with_rate * (t - until)));
 }
 
 namespace {
 
-// To differences of `most`, with a rate that is above zero by `sure` standard errors.
+// Fits up to differences of `most`; the rate must be above zero by `sure` standard errors.
 ErrorGrowth fit_growth_to(double most, double sure, const DifferenceCurve& curve) {
   ErrorGrowth growth;
   std::size_t last = 0, first = 0;
@@ -150,13 +150,13 @@ ErrorGrowth fit_growth(const DifferenceCurve& curve) { return fit_growth_to(kSat
 ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve) {
   ErrorGrowth growth = fit_growth_to(kOfLargest * largest_of(curve.e), kSureOfPlaces, curve);
   growth.to_largest = true;
-  // Any curve has a largest value; one that goes on growing would have passed it by far.
+  // Every curve has a largest value. The curve is saturated if continued growth would have passed that value by far.
   growth.saturated = growth.saturated && growth.rate * (curve.t.back() - growth.until) > 2 * std::log(1 / kOfLargest);
   return growth;
 }
 
 bool same_growth(const ErrorGrowth& first, const ErrorGrowth& second) {
-  // Places and forces part by so much at different times: there is no telling which lasted longer.
+  // Positions and forces reach saturation at different times: these cannot be compared.
   const bool later = second.until > first.until || first.to_largest != second.to_largest;
   return first.exponential && second.exponential && later &&
          std::abs(first.rate - second.rate) < kSurePair * std::hypot(first.rate_error, second.rate_error) + kSameRate * std::min(first.rate, second.rate);

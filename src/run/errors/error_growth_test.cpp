@@ -1,4 +1,4 @@
-// Growth of differences along the time: exponentials are found with their rates, powers and offsets are not taken for them.
+// Growth of differences in time: exponentials are found with their rates; powers and offsets are not mistaken for them.
 #include "run/errors/error_growth.h"
 
 #include <gtest/gtest.h>
@@ -29,10 +29,10 @@ TEST(ErrorGrowth, AnExponentialIsFoundWithItsRateWithinItsError) {
     EXPECT_TRUE(growth.saturated);
     within += std::abs(growth.rate - 2.5) < 2 * growth.rate_error;
   }
-  EXPECT_GE(within, 40);  // 95 % of normal errors
+  EXPECT_GE(within, 40);  // 95 % for normal errors
 }
 
-// As of pins that strike their bushes: each step multiplies what there is. The line's error would say twice as often that the rate is known when it is not.
+// As with pins that strike their bushes: each step multiplies the difference. By the line's standard error, a wrong rate would be taken for known twice as often.
 TEST(ErrorGrowth, TheScatterIsThatOfStretchesWhoseErrorsGrowInSteps) {
   std::mt19937 random(2);
   std::exponential_distribution<double> waits(2.5), gains(1);
@@ -53,7 +53,7 @@ TEST(ErrorGrowth, TheScatterIsThatOfStretchesWhoseErrorsGrowInSteps) {
   EXPECT_LT(within_error, 70 * found / 100);
 }
 
-// Increments that cancel count little: taken one by one they would make it a third of the rate.
+// Increments that cancel count little: taken separately they would make the scatter a third of the rate.
 TEST(ErrorGrowth, NoiseAboutALineAddsLittleToTheScatter) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0, 1);
@@ -81,7 +81,7 @@ TEST(ErrorGrowth, PowersOfTimeAreNotExponential) {
       }
 }
 
-// Such as of a shock in the middle, after which phases drift apart.
+// For example after a shock in the middle, from which phases drift apart.
 TEST(ErrorGrowth, APowerOfTimeThatBeginsLateIsNotExponential) {
   for (const double power : {1.0, 2.0})
     EXPECT_FALSE(fit_growth(curve_of([&](double t) { return t < 4 ? 1e-9 : 1e-2 * std::pow((t - 4) / 6, power) + 1e-9; })).exponential) << power;
@@ -97,9 +97,9 @@ TEST(ErrorGrowth, ASmallerToleranceShiftsAnExponentialAndStretchesAPower) {
   const auto exponential = [](double level) { return fit_growth(curve_of([level](double t) { return level * std::exp(2 * t); })); };
   EXPECT_TRUE(same_growth(exponential(1e-5), exponential(1e-6)));
   ErrorGrowth first = exponential(1e-5), slower = first;
-  slower.rate = first.rate / std::sqrt(10);  // what a fit to the square of time becomes with a tenth of the tolerance
+  slower.rate = first.rate / std::sqrt(10);  // as a fit to the square of time would have it with a tenth of the tolerance
   EXPECT_FALSE(same_growth(first, slower));
-  EXPECT_FALSE(same_growth(exponential(1e-6), exponential(1e-5)));  // it saturates earlier, and says nothing of smaller tolerances
+  EXPECT_FALSE(same_growth(exponential(1e-6), exponential(1e-5)));  // it saturates earlier, and shows nothing about smaller tolerances
 }
 
 TEST(ErrorGrowth, PlacesThatClearancesKeepTogetherSaturateAtTheirLargestDifference) {

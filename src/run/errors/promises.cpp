@@ -9,7 +9,7 @@
 namespace pintle {
 namespace {
 
-// Of a joint's force in the rows after `from` [s]; trapezoidal in time.
+// Statistics of a joint's force in the rows after `from` [s], by the trapezoidal rule in time.
 template <class S>
 LoadStatistics of_rows(const BasicForceTable<S>& forces, std::size_t joints, std::size_t j, double from) {
   LoadStatistics out;
@@ -29,7 +29,7 @@ LoadStatistics of_rows(const BasicForceTable<S>& forces, std::size_t joints, std
   return out;
 }
 
-// What rows miss of a blow between them, those before and behind a horizon miss alike; the peak of the run is known.
+// Rows miss impacts between them, as is assumed in the same ratio before and after a horizon; the peak of the whole run is known.
 template <class S>
 LoadStatistics after(const BasicForceRecorder<S>& pass, std::size_t joints, std::size_t j, double from) {
   LoadStatistics out = of_rows(pass.forces(), joints, j, from);

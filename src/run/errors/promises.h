@@ -8,9 +8,9 @@
 
 namespace pintle {
 
-/// Fills in horizons, errors up to them, statistics after them, growth and message. `out` has its summaries; `share` is that of Eq. (6.2),
-/// `within` what it times the difference may be [-], `least` what errors are at least, with the smallest
-/// tolerance that a pass had.
+/// Fills in horizons, errors up to them, statistics after them, growth and message. `out` already has its summaries; `share` is that of Eq. (6.2),
+/// `within` the upper limit on `share` times the difference [-], and `least` the lower limits on errors, with the smallest
+/// tolerance of any pass.
 template <class S>
 void promise_until_horizons(const BasicSystem<S>& system, const BasicForceRecorder<S>& coarse, const BasicForceRecorder<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out);
 

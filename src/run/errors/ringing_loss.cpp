@@ -42,8 +42,8 @@ void BasicRingingLoss<S>::find_masses() {
   }
 }
 
-// The acceleration of a gap is next to nothing but for its ringing. Where the curve through the stages misses what the step began with by J, of a ringing of
-// amplitude A, the step has taken about J^2 / A off it: the methods' errors at their ends go with the square of those of their curves.
+// The acceleration of a gap is almost zero except for its ringing. If the curve through the stages misses the acceleration at the start of the step by J, the step
+// has taken about J^2 / A off a ringing of amplitude A: the error at the end of a step goes with the square of the error of its curve.
 template <class S>
 void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
   if (mass_.empty()) find_masses();
@@ -66,7 +66,7 @@ void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
   for (std::size_t j = 0; j < lost_.size(); ++j) most_lost_[j] = most_lost_[j].cwiseMax(lost_[j]);
 }
 
-// Vibrations have no phase in common: their squares are added.
+// The phases of the vibrations are unrelated, so their squares are added.
 template <class S>
 void BasicRingingLoss<S>::add_transmitted(double least_force, double least_couple) {
   if (mass_.empty() || system_->n_joints() > kMostJointsWithMasses) return;

@@ -1,4 +1,4 @@
-// What steps take off a free vibration of a joint is what they are said to take, from steps that resolve it to steps that do not.
+// The estimated loss of a joint's free vibration agrees with the true one, from steps that resolve the vibration to steps that do not.
 #include "run/errors/ringing_loss.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Loss {
   double true_one, said;  // [N]
 };
 
-// The rod starts with its pin stretched, and makes `n` steps.
+// The rod starts with its pin stretched; `n` steps are taken.
 Loss loss_of_ringing(int stages, double angle_per_step, double damping, int n) {
   Model model = sample::pendulum(kStiffness, damping, 0);
   sample::put_at(model.bodies[0], 0.5 + kAmplitude / kStiffness, 0, 0);
@@ -43,13 +43,13 @@ TEST(RingingLoss, IsWhatStepsTakeOffAVibration) {
     for (const double angle : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 20.0}) {
       const Loss loss = loss_of_ringing(stages, angle, 0, 40);
       if (loss.true_one < 1e-9) continue;  // rounding
-      const double least = angle > 6 ? 0.2 : 0.33;  // unresolved, it depends on the phase in which the step begins
+      const double least = angle > 6 ? 0.2 : 0.33;  // if unresolved, it depends on the phase at which the step begins
       EXPECT_GT(loss.said, least * loss.true_one) << stages << " stages, " << angle;
       EXPECT_LT(loss.said, 2 * loss.true_one) << stages << " stages, " << angle;
     }
 }
 
-// All of it, in a step that spans many periods; no more is said however many follow.
+// A step that spans many periods loses all of it; the estimate does not rise further however many steps follow.
 TEST(RingingLoss, IsNeverMoreThanThereWas) {
   for (const int stages : {3, 5}) {
     const Loss loss = loss_of_ringing(stages, 1000, 0, 30);
@@ -58,7 +58,7 @@ TEST(RingingLoss, IsNeverMoreThanThereWas) {
   }
 }
 
-// What the joint itself has damped by the end of the step is not lost.
+// What the joint itself has damped by the end of the step does not count as lost.
 TEST(RingingLoss, LeavesOutWhatTheJointDamps) {
   const Loss loss = loss_of_ringing(5, 20, 1000, 1);  // exp(-10)
   EXPECT_LT(loss.said, 1e-4 * kAmplitude);

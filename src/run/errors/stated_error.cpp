@@ -9,13 +9,13 @@
 namespace pintle {
 namespace {
 
-constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many. With 1 the rail of snap_through_truss states a hundredth of what it carries
-constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
-constexpr double kManySteps = 1000;          // from which on what steps have damped may be as much more: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it. With double of it gears-1-77 of the battery takes twice the steps, with half as many
-constexpr double kMostRinging = 3;           // times the tolerance of the steps and the mean of a joint's peak and the largest: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
-constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
+constexpr double kPeakOfRounding = 10;       // peak of roundoff over a whole run, as a multiple of that of one force. With 1 the rail of snap_through_truss states an error of a hundredth of what it carries
+constexpr double kNegligibleOfMotor = 1e-3;  // lower limit on the reference of a motor's error, as a fraction of the largest force
+constexpr double kManySteps = 1000;          // from this number of steps on, limits grow in proportion to it: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it. With double this number gears-1-77 of the battery takes twice the steps, with half of it as many
+constexpr double kMostRinging = 3;           // upper limit on vibrations damped unnoticed, as a multiple of the tolerance of the steps times the geometric mean of the joint's peak and the largest one. What thousands of steps lose of resolved vibrations shows in the difference of the passes
+constexpr double kOfEqual = 3;               // factor of Eq. (6.2): share of the difference that would be the finer pass's error if it were as coarse
 
-// Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
+// The larger distance: of centres, or of points at `radius` from them across the axis of rotation. theory/time Eq. (6.4).
 template <class S>
 double distance(const typename S::Coordinates& a, const typename S::Coordinates& b, double radius) {
   const typename S::Vec way = S::difference(a, b);
@@ -24,11 +24,11 @@ double distance(const typename S::Coordinates& a, const typename S::Coordinates&
 
 double relative(double error, double peak, double least) { return error / std::max({peak, least, 1e-300}); }
 
-// What the joints of a mechanism are measured by. Where they all carry nothing, as in free fall, by what acts on the bodies.
+// References for the errors of the joints. Where no joint carries anything, as in free fall, these are the loads on the bodies.
 template <class S>
 struct Measures {
-  double force, couple;               // the largest of the mechanism [N], [N*m]
-  double rounding, rounding_couple;  // what rounding makes of the forces and couples of a run [N], [N*m]
+  double force, couple;               // the largest in the mechanism [N], [N*m]
+  double rounding, rounding_couple;  // roundoff of the forces and couples of a run [N], [N*m]
   const BasicSystem<S>& system;
 
   Measures(const BasicSystem<S>& of, const PassDifference& c)
@@ -48,7 +48,7 @@ struct Measures {
 
  private:
   static double smallest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::min_element(x.begin(), x.end()); }
-  // Where joints carry more, or nothing carries anything, what rounding alone makes of a joint is no force whose error a finer pass could lessen.
+  // Whether a joint's force is roundoff alone, whose error no finer pass can reduce. Only where other joints carry more, or none carries anything.
   static bool is_rounding(double error, double peak, double rounding, double largest) {
     return std::max(error, peak) <= rounding && (largest > rounding || largest <= rounding / kPeakOfRounding);
   }
@@ -58,8 +58,8 @@ struct Measures {
   }
 };
 
-// Differences and peaks up to a row. Where the finer pass has no shorter steps, nothing says that it is better: all of the difference is its
-// error there, so that `share` of what is kept is.
+// Differences and peaks up to a row. Where the finer pass has no shorter steps, nothing shows that it is better: the whole difference is its
+// error there, so it is kept divided by `share`.
 template <class S>
 class Growing {
  public:
@@ -84,12 +84,12 @@ class Growing {
   const PassDifference& so_far() const { return c_; }
 
  private:
-  double all_;  // over the share
+  double all_;  // 1 / share
   PassDifference c_;
 };
 
-// What the steps have damped of a joint's vibrations: its force and its couple. Steps are judged by the largest loads, and a lightly loaded joint may carry what
-// another's vibrations accelerate: what it may lack unnoticed is between the two.
+// Force and couple of a joint's vibrations that the steps have damped. Steps are judged by the largest loads, and a lightly loaded joint may carry forces of
+// another's vibrations: the limit on what it may lack unnoticed lies between its own peak and the largest.
 template <class S>
 std::array<double, 2> damped(const Measures<S>& measures, const BasicRingingLoss<S>& ringing, double tolerance, const PassDifference& difference, std::size_t j) {
   const auto most = [tolerance, many = std::max(ringing.n_steps() / kManySteps, 1.0)](double peak, double largest) { return kMostRinging * tolerance * many * std::sqrt(peak * std::max(peak, largest)); };
@@ -101,7 +101,7 @@ void state_error(const Measures<S>& measures, const PassDifference& difference, 
   const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];
   const auto [damped_force, damped_couple] = damped(measures, least.ringing, least.tolerance, difference, j);
   const double force = std::max(share * difference.force[j], damped_force), couple = std::max(share * difference.couple[j], damped_couple);
-  joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
+  joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // a force that is roundoff alone is not known at all
   joint.moment_error_estimate = couple;
   joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
 }

@@ -13,15 +13,15 @@ namespace {
 
 using S = Planar;
 
-constexpr double kYielding = 1e-4;                                                         // of the stiffest joint: what is softer is not asked to stay closed
-constexpr double kHeld = 1e-9;                                                             // weight of the bodies' places beside that of the gaps: squares of smaller singular values are zero
-constexpr double kMisfits = 30, kLoosestRank = 1e-2;                                           // singular values that count as zero, over the misfit of the joints; the same, at most
-constexpr double kStride = 0.02;                                                           // of the typical arm: a stride along the motion
-constexpr double kNoticed = 1e-6;                                                          // of a radian, or of the arm: a drive that asks for less beyond a limit is at it
-constexpr double kNothing = 1e-7;                                                          // what a projection leaves of a direction, below which it is rounding
-constexpr int kMostStrides = 4000, kMostIterations = 30, kMostTurns = 20, kHalvings = 50;  // along one way, at most; iterations to close the joints, at most; turns, at most; halvings for a turning point
+constexpr double kYielding = 1e-4;                                                         // fraction of the stiffest joint: softer components need not stay closed
+constexpr double kHeld = 1e-9;                                                             // weight of the bodies' positions relative to the gaps: squares of smaller singular values count as zero
+constexpr double kMisfits = 30, kLoosestRank = 1e-2;                                           // singular values up to this multiple of the joints' misfit count as zero; upper limit on them
+constexpr double kStride = 0.02;                                                           // stride along the motion, as a fraction of the typical arm
+constexpr double kNoticed = 1e-6;                                                          // in radians, or as a fraction of the arm: a drive that asks for less than this beyond a limit is at it
+constexpr double kNothing = 1e-7;                                                          // if a projection leaves less than this of a direction, that is roundoff
+constexpr int kMostStrides = 4000, kMostIterations = 30, kMostTurns = 20, kHalvings = 50;  // upper limits: strides along one way, iterations to close the joints, turns; bisections for a turning point
 
-// The motion that the joints leave when they stay closed, while the drives other than one stay where they are.
+// The motion that closed joints allow while all drives but one stay where they are.
 class RigidMotion {
  public:
   RigidMotion(const System& system, const Vecs& q, double t, int drive)
@@ -37,11 +37,11 @@ class RigidMotion {
 
   double length() const { return length_; }
   const std::vector<S::Motion>& motions() const { return m_; }
-  // The coordinate less what the drive asks for, at what has been read.
+  // The coordinate minus the value that the drive asks for, at the positions last read.
   double gap() const { return r_[drive_].gap[component()]; }
   void read(const Vecs& q) { kinematics_at(system_, t_, q, still_, m_, r_); }
 
-  // What joints that ask for different lengths leave open makes the Jacobian's rank uncertain: so much of a motion counts as free.
+  // Gaps that joints asking for different lengths leave open make the rank of the Jacobian uncertain: motions up to this misfit count as free.
   void allow_misfit() {
     double misfit = 0;
     for (std::size_t j = 0; j < gaps_.size(); ++j) {
@@ -52,7 +52,7 @@ class RigidMotion {
     hold(std::max(kHeld, tolerance * tolerance));
   }
 
-  // Moves q the least by which all joints close, with `driven` the drive too; reads it. False if they do not.
+  // Closes all joints, with `driven` the drive too, by the smallest change of q, and reads the result. Returns false if they do not close.
   bool close(Vecs& q, bool driven = false) {
     weight_[drive_][component()] = driven ? unit(component()) : 0;
     bool closed = false;
@@ -73,7 +73,7 @@ class RigidMotion {
     return closed;
   }
 
-  // What the coordinate changes by, per motion of the bodies, as a motion of theirs: s of theory/limits (1.2).
+  // The gradient of the coordinate with respect to the bodies' motion, as a motion: s of theory/limits (1.2).
   Vecs gradient() const {
     Vecs s(still_);
     add_force(system_.joints[drive_].at, r_[drive_], S::Vec(S::Vec::Unit(component())), s);
@@ -82,7 +82,7 @@ class RigidMotion {
   }
   double rate(const Vecs& n) const { return gap_change(system_.joints[drive_].at, r_[drive_], n)[component()]; }
 
-  // The part of `motion` that leaves the joints closed, as large as the body that moves most; what is left of it. (1.3)
+  // Replaces `motion` by its part that leaves the joints closed, scaled by the body that moves most. Returns the fraction that was left. (1.3)
   double project(Vecs& motion) {
     const double before = largest(motion);
     if (!equations_.prepare(r_, weight_, held_)) return 0;
@@ -96,7 +96,7 @@ class RigidMotion {
     return before > 0 ? after / before : 0;
   }
 
-  // The forces with which the joints hold an effort of 1 that can move nothing. (1.4)
+  // The joint forces that balance a drive effort of 1 where nothing can move. (1.4)
   Vecs holding_forces() {
     Vecs f(wanted_);
     if (!equations_.prepare(r_, weight_, held_)) return f;
@@ -121,7 +121,7 @@ class RigidMotion {
     return most;
   }
 
-  // Components that a joint holds firmly; of drives those other than this one.
+  // Selects the components that joints hold firmly; of the drives, those other than this one.
   void choose_rows() {
     double stiffest = 0;
     Vecs stiffness(weight_);
@@ -147,16 +147,16 @@ class RigidMotion {
   int drive_;
   Vecs still_;
   LeastSquares equations_;
-  Vecs weight_, wanted_, gaps_;  // of the joints' gaps
+  Vecs weight_, wanted_, gaps_;  // for the joints' gaps
   double length_ = 1;
   S::Vec metric_ = S::Vec::Ones();
-  Vecs held_;  // weights of the bodies' places
+  Vecs held_;  // weights of the bodies' positions
   double share_ = kHeld;
   std::vector<S::Motion> m_;
   std::vector<JointKinematics> r_;
 };
 
-// Follows the motion from where the bodies are to where the drive should be.
+// Follows the motion from the current position of the bodies to the one the drive asks for.
 class LimitSearch {
  public:
   LimitSearch(const System& system, const Vecs& q, double t, int drive) : system_(system), t_(t), drive_(drive), q_(q), motion_(system, q, t, drive) {}
@@ -183,7 +183,7 @@ class LimitSearch {
   double noticed() const { return kNoticed * (system_.joints[drive_].driven == 2 ? 1 : motion_.length()); }
   double climb(const Vecs& n) const { return ahead_ * motion_.rate(n); }
 
-  // A motion that takes the coordinate ahead; where none does at first, one that does a stride further on. Empty: there is none.
+  // A motion that moves the coordinate ahead; if none does so at first, one that does so after a stride. Empty if there is none.
   Vecs way_ahead() {
     Vecs n = motion_.gradient();
     if (motion_.project(n) > kFlat) {
@@ -210,7 +210,7 @@ class LimitSearch {
     return motion_.close(q);
   }
 
-  // Strides until the drive is where it should be, or its coordinate turns round.
+  // Takes strides until the drive is where it should be, or its coordinate reverses.
   Way follow() {
     Vecs n = way_ahead();
     if (n.empty()) return rigid_ ? Way::kLost : Way::kNowhere;
@@ -230,7 +230,7 @@ class LimitSearch {
     return Way::kLost;
   }
 
-  // The turning point within a stride of h along n.
+  // Bisects for the turning point within a stride of h along n.
   bool halve(const Vecs& n, double h) {
     double low = 0, high = h;
     const Vecs from = q_;
@@ -274,7 +274,7 @@ class LimitSearch {
     return pins;
   }
 
-  // Three pins on two bodies that share the one between, with the force along the line.
+  // Three pins in line on two bodies that share the middle one, whose force is along the line.
   std::vector<int> pins_in_line() {
     const std::vector<Pin> pins = loaded_pins();
     const auto shared = [](const Pin& x, const Pin& y) {
@@ -296,8 +296,8 @@ class LimitSearch {
   }
 
   static constexpr double kFlat = 1e-5;    // slope of the drive's coordinate along the motion, below which it is at a turning point
-  static constexpr double kApart = 1e-3;   // of the typical arm: pins that are nearer stand in each other
-  static constexpr double kInLine = 1e-4;  // sine of the angle between two lines that are one
+  static constexpr double kApart = 1e-3;   // fraction of the typical arm: pins closer than this coincide
+  static constexpr double kInLine = 1e-4;  // sine of the angle below which two lines count as one
 
   const System& system_;
   double t_;

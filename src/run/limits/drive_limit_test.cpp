@@ -19,7 +19,7 @@ struct Bar {
   Planar::Point a, b;
 };
 
-// Bars between pins; those whose markers have the same name share a pin, on the ground the markers of `ground`.
+// Bars between pins. Markers with the same name share a pin; `ground` lists the markers of the ground.
 class Linkage {
  public:
   Linkage(const std::vector<std::pair<const char*, Planar::Point>>& ground, const std::vector<Bar>& bars) {
@@ -46,7 +46,7 @@ class Linkage {
   Vecs q;
 };
 
-// Where two circles meet, to the left of the way from p to r.
+// Intersection of two circles, to the left of the line from p to r.
 Planar::Point meeting(const Planar::Point& p, double a, const Planar::Point& r, double b) {
   const Planar::Point d = r - p;
   const double along = (d.squaredNorm() + a * a - b * b) / (2 * d.norm()), across = std::sqrt(a * a - along * along);
@@ -74,7 +74,7 @@ TEST(DriveLimit, IsWhereCouplerAndRockerAreInLine) {
     EXPECT_EQ(found->in_line, (std::vector<int>{1, 2, 3}));
     EXPECT_NEAR(std::abs(std::sin(found->q[1][2] - found->q[2][2])), 0, 1e-6);
   }
-  // Folded: coupler and rocker on each other.
+  // Folded: coupler and rocker on top of each other.
   const auto folded = driven_four_bar(0.3, 0.25, 0.3, 0.1, 60 * kDegree, "0").limit();
   ASSERT_TRUE(folded);
   EXPECT_NEAR(folded->value, std::acos((0.09 + 0.0625 - 0.04) / 0.15), 1e-9);
@@ -84,7 +84,7 @@ TEST(DriveLimit, IsWhereCouplerAndRockerAreInLine) {
 TEST(DriveLimit, NothingWhereTheDriveCanBeWhereItShould) {
   EXPECT_FALSE(driven_four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "121.9*pi/180").limit());
   EXPECT_TRUE(driven_four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "122.1*pi/180").limit());
-  EXPECT_FALSE(driven_four_bar(0.3, 0.1, 0.25, 0.25, 90 * kDegree, "300*pi/180").limit());  // a crank: it lags, no more
+  EXPECT_FALSE(driven_four_bar(0.3, 0.1, 0.25, 0.25, 90 * kDegree, "300*pi/180").limit());  // a crank: it only lags
   EXPECT_FALSE(driven_four_bar(0.3, 0.1, 0.3, 0.1, 60 * kDegree, "200*pi/180").limit());    // a parallelogram, through its flat position
 }
 
@@ -97,7 +97,7 @@ TEST(DriveLimit, JointsThatGiveWayAreClosedFirst) {
   EXPECT_NEAR(found->value, std::acos((0.09 + 0.04 - 0.44 * 0.44) / 0.12), 1e-9);
 }
 
-// The limit is that of the loop, whatever hangs on it or doubles its bars: also if these do not fit exactly.
+// The limit is that of the loop, regardless of bodies that hang on it or duplicate its bars, even if these do not fit exactly.
 TEST(DriveLimit, FreeAndRedundantBodiesDoNotMatter) {
   Linkage four = driven_four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "3");
   const double limit = four.limit()->value;
@@ -121,7 +121,7 @@ TEST(DriveLimit, FreeAndRedundantBodiesDoNotMatter) {
   }
 }
 
-// Two cranks that draw a chain of two bars straight: each has a limit while the other stays.
+// Two cranks that pull a chain of two bars straight: each has a limit while the other stays.
 TEST(DriveLimit, OtherDrivesStayWhereTheyAre) {
   const Planar::Point O(0, 0), C(0.3, 0), P(0.2 * std::cos(110 * kDegree), 0.2 * std::sin(110 * kDegree)), Q(0.3 + 0.2 * std::cos(80 * kDegree), 0.2 * std::sin(80 * kDegree)),
       R = meeting(P, 0.25, Q, 0.25);
@@ -140,8 +140,8 @@ TEST(DriveLimit, OtherDrivesStayWhereTheyAre) {
   EXPECT_NEAR((to - Q).norm(), 0.5, 1e-8);
 }
 
-// A crank of 30 mm on a rod of 20 mm: it comes as far as the rod can follow, square to the guide. The guide holds the slider's angle, a hundredth of
-// a hundredth of its stiffness in units of length.
+// A crank of 30 mm on a rod of 20 mm: it turns as far as the rod can follow, perpendicular to the guide. The guide holds the slider's angle with a
+// hundredth of a hundredth of its stiffness in units of length.
 TEST(DriveLimit, AGuideHoldsItsSlider) {
   const double angle = 20 * kDegree, crank = 0.03, rod = 0.02;
   const Planar::Point O(0, 0), A(crank * std::cos(angle), crank * std::sin(angle)), B(A.x() + std::sqrt(rod * rod - A.y() * A.y()), 0);
@@ -160,7 +160,7 @@ TEST(DriveLimit, AGuideHoldsItsSlider) {
   EXPECT_NEAR(found->value, std::asin(rod / crank), 1e-6);
 }
 
-// A triangle of bars moves nowhere: that is no limit of its motor.
+// A triangle of bars cannot move: that is not a limit of its motor.
 TEST(DriveLimit, AStructureHasNone) {
   const Planar::Point O(0, 0), C(0.3, 0), B = meeting(O, 0.25, C, 0.25);
   Linkage triangle({{"O", O}, {"C", C}}, {{"left", "O", "B", O, B}, {"right", "C", "B", C, B}});

@@ -16,36 +16,36 @@
 namespace pintle {
 namespace {
 
-constexpr int kHalvings = 40;                                  // of the step in which a limit is reached
-constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // tolerance of the steps that find the instant, at least; at most
-constexpr double kLooks = 2000;                                // of a run that is made again, for a limit, at most
+constexpr int kHalvings = 40;                                  // bisections of the step in which a limit is reached
+constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // lower and upper limit on the tolerance of the steps that find the time of arrival
+constexpr double kLooks = 2000;                                // upper limit on the checks for a limit in a repeated run
 constexpr double kFarBehind = 0.1;                              // lag of a motor that is worth a note, as a fraction of the travel asked of it
-constexpr double kSameLimit = 1e-6;                            // between two values of a coordinate that are one [rad or m]
-constexpr double kLittle = 0.01;                               // of the duration: how soon after a run that has stopped its drive would be at a limit
+constexpr double kSameLimit = 1e-6;                            // two values of a coordinate that differ by less are the same limit [rad or m]
+constexpr double kLittle = 0.01;                               // fraction of the duration after a stopped run at which its drive is checked for a limit
 
-// What has been found about a drive.
+// What was found about a drive.
 struct Finding {
   DrivePeak<Planar> peak;
   DriveLimit limit;
-  double t;              // when the mechanism came there, at first when it was seen to have been [s]
-  bool pushed;           // the run went on
+  double t;              // when the mechanism reached it; before refinement, when it was seen there [s]
+  bool pushed;           // the run continued
   bool alone;            // no other drive is at a limit
   bool first = true;     // the limit is that at which the effort was largest
 };
 
-// By how much a coordinate is past another value of it; angles may have gone round in between.
+// By how much a coordinate is beyond the limit; angles may differ by whole turns.
 double past(const DriveLimit& limit, double value, bool angle) {
   const double beyond = limit.ahead * (value - limit.value);
   return angle ? std::remainder(beyond, kTurn) : beyond;
 }
 
-// Integrates again up to the instant at which the limit is reached first, which is found in the dense output of the step that takes it there.
+// Integrates again up to the time at which the limit is first reached, which is located in the dense output of the step that reaches it.
 class Arrival {
  public:
   Arrival(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run) : system_(system), start_(start), settings_(settings), run_(run) {}
 
-  // The limit that the mechanism comes to first need not be that at which its drive then pushed hardest. With several drives no coordinate has a
-  // limit of its own: then it is the first instant at which they ask for what cannot be.
+  // The limit that the mechanism reaches first need not be the one at which its drive later pushed hardest. With several drives no coordinate has a
+  // limit of its own: then the time is the first at which they ask for an impossible position.
   void refine(Finding& finding) const {
     const int drive = finding.peak.joint;
     const JointData& joint = system_.joints[static_cast<std::size_t>(drive)];
@@ -73,7 +73,7 @@ class Arrival {
   }
 
  private:
-  // The end of the first step in which that is so, or after halvings of it the instant; negative: not before t_end.
+  // The end of the first step in which `reached` holds, or that time after bisecting the step; negative if not before t_end.
   template <class Reached>
   double first(Reached reached, double t_end, int halvings) const {
     const auto stepper = make_stepper(system_, resolve_method(settings_), std::clamp(settings_.tolerance, kFinestReplay, kLoosestReplay));
@@ -138,8 +138,8 @@ Vecs places(const std::vector<Planar::Motion>& m) {
   return q;
 }
 
-// Where its effort was largest, and where the run ended. Where it could not go on also a little later, from its start too: the last
-// places may be no mechanism's.
+// Looks where the drive's effort was largest, and where the run ended. If the run could not continue, also a little later, and from its start
+// too: the last positions may no longer be those of a mechanism.
 std::optional<Finding> look_at(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run, const Vecs& last, const DrivePeak<Planar>& peak) {
   const auto found = [&](const Vecs& q, double t) { return find_drive_limit(system, q, t, peak.joint); };
   if (!peak.q.empty())

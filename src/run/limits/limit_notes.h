@@ -1,4 +1,4 @@
-// Tells the user of a mechanism that a drive has brought to its limit. theory/limits
+// Tells the user when a drive has brought the mechanism to a limit. theory/limits
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace pintle {
 
-/// One note for each drive that a run has shown to push against a limit: when it came there, where that is, which joints are in line,
-/// how hard the drive pushed. The instant is found by integrating up to it again. `run` is finished, `recorder` that of its last pass.
+/// One note for each drive that a run has shown to push against a limit: when it was reached, where it is, which joints are in line, and
+/// how hard the drive pushed. The time is found by integrating up to it again. `run` is finished; `recorder` is that of its last pass.
 std::vector<std::string> limit_notes(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run, const ForceRecorder& recorder);
 
 }  // namespace pintle

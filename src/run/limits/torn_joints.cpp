@@ -10,11 +10,11 @@
 namespace pintle {
 namespace {
 
-// Of the mechanism's size: a joint that gives way by more is no joint any longer, if it gives way to the weight of the whole mechanism by less than this part of that; softer
-// ones are meant to. No stiff joint of the collection gives way by a twentieth of it; with double of it a rod that is shorter than its crank by a tenth is not told.
+// Fraction of the mechanism's size: a joint that deflects by more is torn, if the weight of the whole mechanism deflects it by less than this fraction of that; softer
+// joints are meant to deflect. No stiff joint of the collection deflects by a twentieth of it; with double it a rod that is shorter than its crank by a tenth is not reported.
 constexpr double kTorn = 0.02;
 
-// The largest stiffness against displacements that a joint holds, as a blade is pulled along [N/m]; infinite: it holds none, or ideally.
+// The largest stiffness of a joint against displacements, as of a blade pulled lengthwise [N/m]; infinite if it holds none, or is ideal.
 template <class S>
 double largest_stiffness(const BasicJointData<S>& joint) {
   const double largest = joint.servo >= 0 || joint.ideal ? 0 : joint.law.engaged_stiffness().template head<S::kDim>().maxCoeff();

@@ -1,4 +1,4 @@
-// Tells the user of joints that have given way by a part of the whole mechanism: no machine does. theory/limits section 3.
+// Tells the user of joints that have deflected by a considerable part of the mechanism's size, as no machine does. theory/limits section 3.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace pintle {
 
-/// A note on the joint that its peak force has torn open farthest; empty: none is. `joints` are those of a finished run that began at `start`.
+/// A note on the joint that its peak force has torn open farthest; empty if there is none. `joints` are those of a finished run that began at `start`.
 template <class S>
 std::string note_on_torn_joint(const BasicSystem<S>& system, const BasicState<S>& start, const std::vector<LoadSummary>& joints);
 

@@ -9,7 +9,7 @@
 namespace pintle {
 namespace {
 
-// By the laws' columns.
+// Judged by the law's columns.
 template <class S>
 bool is_contact(const BasicLaw<S>& law) {
   const std::vector<LawColumn> columns = law.columns();
@@ -20,7 +20,7 @@ bool is_contact(const BasicLaw<S>& law) {
 
 template <class S>
 std::string note_on_creeping_contacts(const BasicSystem<S>& system, const BasicState<S>& end, double duration) {
-  constexpr double kShare = 0.02, kSlow = 0.02;  // of the force that is damping; of the run, for its ratio to the stiffness
+  constexpr double kShare = 0.02, kSlow = 0.02;  // share of the force that is damping; damping over stiffness, as a fraction of the run
   std::string names;
   double largest_share = 0, slowest = 0;
   for (int j = 0; j < system.n_joints(); ++j) {

@@ -1,5 +1,5 @@
-// The largest effort of every drive during a run, and where the bodies were when it had grown most of the way there: whether they
-// had come to a limit is asked after the run.
+// The largest effort of every drive during a run, and the positions of the bodies when it had grown most of the way there: after the
+// run these are checked for a limit.
 #pragma once
 
 #include <cmath>
@@ -9,13 +9,13 @@
 
 namespace pintle {
 
-/// What a servo, or what drives the length of a joint, had to do.
+/// The peak effort of a servo, or of what drives the length of a joint.
 template <class S>
 struct DrivePeak {
-  int joint = 0;                        // of the system
-  double effort = 0, lag = 0, t = 0;    // the largest, without its sign; the drive's gap then; and when
-  double seen = 0, t_seen = 0;          // effort of which the places are known, and when
-  PositionsOf<S> q;                     // the places then
+  int joint = 0;                        // index in the system
+  double effort = 0, lag = 0, t = 0;    // the largest absolute value; the drive's gap then; and when
+  double seen = 0, t_seen = 0;          // effort for which the positions are known, and when
+  PositionsOf<S> q;                     // the positions then
 };
 
 template <class S>
@@ -25,7 +25,7 @@ class BasicDrivePeaks {
     for (int j = 0; j < system.n_joints(); ++j)
       if (system.joints[j].driven >= 0) components_.push_back(system.joints[j].driven), peaks_.push_back({.joint = j, .q = {}});
   }
-  /// The end of a step.
+  /// Call at the end of each step.
   void see(const BasicState<S>& state) {
     for (std::size_t i = 0; i < peaks_.size(); ++i) {
       DrivePeak<S>& peak = peaks_[i];
@@ -43,7 +43,7 @@ class BasicDrivePeaks {
   const std::vector<DrivePeak<S>>& all() const { return peaks_; }
 
  private:
-  static constexpr double kGrown = 1.25;  // places are copied again when the effort has grown by so much: seldom
+  static constexpr double kGrown = 1.25;  // positions are copied again when the effort has grown by this factor: seldom
 
   std::vector<int> components_;  // of the gaps
   std::vector<DrivePeak<S>> peaks_;

@@ -7,7 +7,7 @@
 namespace pintle {
 namespace {
 
-/// Integral of the size of the parabola through three values an even distance apart, in units of that distance. It is cut where it changes its sign.
+/// Integral of the absolute value of the parabola through three equidistant values, in units of their distance. It is split where the sign changes.
 double integral_of_size(double before, double here, double after) {
   const double slope = 0.5 * (after - before), bend = 0.5 * (before - 2 * here + after);  // here + slope x + bend x^2
   const double q = -0.5 * (slope + std::copysign(std::sqrt(std::max(slope * slope - 4 * bend * here, 0.0)), slope));
@@ -23,7 +23,7 @@ double integral_of_size(double before, double here, double after) {
   return sum;
 }
 
-// Of the size of f, which changes its sign or does not: Simpson's rule over pairs of intervals, of which every `every`th point is an end. Eq. (1.1)
+// Integral of the absolute value of f, which may change its sign: Simpson's rule over pairs of intervals with an end at every `every`th point. Eq. (1.1)
 double integral_of_size(const CurveGrid::AtPoints& f, bool changes_sign, std::size_t every = 1) {
   double sum = 0;
   if (changes_sign)
@@ -39,7 +39,7 @@ CurveGrid::AtPoints product(const CurveGrid::AtPoints& a, const CurveGrid::AtPoi
   return out;
 }
 
-// A pin that turns one way has its least and largest angle at the ends of the step.
+// A pin that turns only one way has its smallest and largest angle at the ends of the step.
 void add_swing(const CurveGrid& grid, const CurveGrid::Weights& samples, bool turns_round, DutySums& sums) {
   const auto see = [&sums](double angle) {
     sums.most = std::max(sums.most, angle);
@@ -55,7 +55,7 @@ void add_swing(const CurveGrid& grid, const CurveGrid::Weights& samples, bool tu
   see(-largest_on_grid(angle));
 }
 
-// To the size of f. The parabola through its largest point and two others, none of them negative, rises above that point by an eighth of it at most.
+// Raises `peak` to the largest |f|. A parabola through the largest point and two others, none of them negative, exceeds that point by at most an eighth.
 void raise_peak(CurveGrid::AtPoints f, double& peak) {
   double largest = 0;
   for (double& x : f) largest = std::max(largest, x = std::abs(x));
@@ -78,7 +78,7 @@ void add_duty(const CurveGrid& grid, const CurveGrid::AtPoints& squares, const T
   sums.load += h * integral_of_size(over_path, turns_round);
   over_path = product(over_path, squares);
   sums.load_3 += h * integral_of_size(over_path, turns_round);
-  constexpr std::size_t kEvery = 2;  // points for which a cube root is taken: with 1, it is most of what this function takes
+  constexpr std::size_t kEvery = 2;  // a cube root is taken at every such point: with 1, it takes most of the time of this function
   for (std::size_t p = 0; p < load.size(); p += kEvery) over_path[p] *= std::cbrt(load[p]);
   sums.load_10_3 += h * integral_of_size(over_path, turns_round, kEvery);
 }

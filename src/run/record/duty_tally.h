@@ -1,4 +1,4 @@
-// What pins turn in their bushes and under which load: integrals over the path of each, by curves inside every step. theory/bearing_life section 1.
+// How far pins turn in their bushes, and under which load: integrals over the path of each, from curves inside every step. theory/bearing_life section 1.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-/// Over the steps so far. Eq. (1.1) to (1.3)
+/// Sums over the steps so far. Eq. (1.1) to (1.3)
 struct DutySums {
   double path = 0;                                              // [rad]
   double load = 0, load_3 = 0, load_10_3 = 0;                   // of |F|^p over the path, p = 1, 3, 10/3 [N^p*rad]
@@ -18,7 +18,7 @@ struct DutySums {
   double peak_rate = 0, peak_power = 0;                         // of |rate|, of |F| |rate| [rad/s], [N*rad/s]
 };
 
-/// Samples of a pin's angle in its bush and of its rate, as many as a grid has.
+/// Samples of a pin's angle in its bush and of its rate, at the samples of a grid.
 struct TurnSamples {
   CurveGrid::Weights angle{}, rate{};  // [rad], [rad/s]
 };
@@ -29,12 +29,12 @@ void add_duty(const CurveGrid& grid, const CurveGrid::AtPoints& squares, const T
 template <class S>
 class BasicDutyTally {
  public:
-  /// Of the joints that turn freely and carry a force: pins.
+  /// For pins: joints that turn freely and carry a force.
   explicit BasicDutyTally(const BasicSystem<S>& system);
 
-  /// Sample i of a step.
+  /// Takes sample i of a step.
   void sample(int i, const BasicState<S>& state);
-  /// Adds a step of h seconds of a joint, if it is a pin, by the curves through the samples of `grid`, with the squares of its force at the points.
+  /// Adds a step of h seconds for a joint, if it is a pin, from the curves through the samples of `grid`, with the squares of its force at the points.
   void add_curve(int joint, const CurveGrid& grid, const CurveGrid::AtPoints& squares, double h);
   std::vector<PinDuty> result() const;
 
@@ -47,7 +47,7 @@ class BasicDutyTally {
 
   const BasicSystem<S>& system_;
   std::vector<Pin> pins_;
-  std::vector<int> pin_of_;  // joints; -1: none
+  std::vector<int> pin_of_;  // per joint; -1: none
 };
 
 }  // namespace pintle

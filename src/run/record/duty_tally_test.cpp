@@ -1,4 +1,4 @@
-// What pins go through, against closed forms. theory/bearing_life section 1
+// The duty of pins against closed forms. theory/bearing_life section 1
 #include "run/record/duty_tally.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ Turning swinging(double a, Force force) {
   return {[a](double t) { return a * std::sin(t); }, [a](double t) { return a * std::cos(t); }, std::move(force)};
 }
 
-// The path weighs, not the time: 1 kN at 50 rad/s, then 2 kN at 100 rad/s, as long.
+// Loads are weighted by path, not by time: 1 kN at 50 rad/s, then 2 kN at 100 rad/s for the same time.
 TEST(DutyTally, TwoLevelsOfLoad) {
   DutySums sums;
   for (const double level : {1.0, 2.0})
@@ -64,7 +64,7 @@ TEST(DutyTally, TwoLevelsOfLoad) {
   EXPECT_NEAR(sums.peak_power, 2e5, 1e-9);
 }
 
-// Steps end beside the turning points, each of which is inside a step.
+// No step ends at a turning point: each lies inside a step.
 TEST(DutyTally, SwingsCountTheirPath) {
   const double a = 0.4;
   const DutySums sums = over(swinging(a, [](double) { return std::pair(1000.0, 0.0); }), 0, kTurn, 7);
@@ -74,24 +74,24 @@ TEST(DutyTally, SwingsCountTheirPath) {
   EXPECT_NEAR(sums.peak_rate, a, 1e-6 * a);
 }
 
-// |F| = F0 |cos t|, and so is the rate over a: integrals of |cos|^(p + 1).
+// |F| = F0 |cos t|, and |rate| = a |cos t|: integrals of |cos|^(p + 1).
 TEST(DutyTally, LoadInPhaseWithTheSpeed) {
   const double a = 0.4;
   const DutySums sums = over(swinging(a, [](double t) { return std::pair(0.0, 1000 * std::cos(t)); }), 0, kTurn, 11);
   EXPECT_NEAR(sums.load, 1e3 * a * kPi, 1e-6 * 1e3);
   EXPECT_NEAR(sums.load_3, 1e9 * a * 0.75 * kPi, 1e-6 * 1e9);
-  // Of |cos|^(13/3) over a turn: 2 sqrt(pi) Gamma(8/3) / Gamma(19/6).
+  // Integral of |cos|^(13/3) over a turn: 2 sqrt(pi) Gamma(8/3) / Gamma(19/6).
   EXPECT_NEAR(sums.load_10_3, 1e10 * a * 2 * std::sqrt(kPi) * std::tgamma(8.0 / 3) / std::tgamma(19.0 / 6), 1e-5 * 1e10);
   EXPECT_NEAR(sums.peak_power, 1e3 * a, 1e-5 * 1e3);
 }
 
-// A load that goes round with the pin keeps its size between samples.
+// A load that rotates with the pin keeps its magnitude between samples.
 TEST(DutyTally, TurningLoad) {
   const DutySums sums = over({[](double t) { return t; }, [](double) { return 1.0; }, [](double t) { return std::pair(500 * std::cos(t), 500 * std::sin(t)); }}, 0, kTurn, 8);
   EXPECT_NEAR(std::cbrt(sums.load_3 / sums.path), 500, 1e-6 * 500);
 }
 
-// Both turning points of a cubic in one step: 0 to 1 with rates -6 at both ends goes down, up and down again.
+// Both turning points of a cubic in one step: from 0 to 1 with a rate of -6 at both ends, it goes down, up and down again.
 TEST(DutyTally, TwoTurningPointsInAStep) {
   const auto angle = [](double x) { return x * (-6 + 21 * x - 14 * x * x); };
   const DutySums sums = over({angle, [](double x) { return -6 + 42 * x - 42 * x * x; }, [](double) { return std::pair(1.0, 0.0); }}, 0, 1, 1);

@@ -1,4 +1,4 @@
-// Rollers that a run has taken beyond the stretch of their edge that was looked at for corners and hollows.
+// Rollers that have run beyond the part of their edge that was checked for corners and hollows.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ class BasicEdgeOverruns {
       for (int j = 0; j < system.n_joints(); ++j)
         if (std::holds_alternative<EdgeGap>(system.joints[static_cast<std::size_t>(j)].displacement)) inside_.push_back(j);
   }
-  /// The end of a step, or an output row inside a step before it. A roller above its edge touches nothing there.
+  /// Call at the end of a step, or at an output row inside it, before its end. A roller lifted off its edge touches nothing there.
   void see(const BasicState<S>& state) {
     if constexpr (S::kDim == 2) {
       if (inside_.empty()) return;
@@ -30,7 +30,7 @@ class BasicEdgeOverruns {
         if (!(joint.law.penetration(state.gap[static_cast<std::size_t>(j)]) > 0)) return false;
         const EdgeProfile& edge = *std::get<EdgeGap>(joint.displacement).profile;
         const typename S::Vec z = system_.pose(joint.at, m_).z;
-        if (z[0] - edge.roller_radius() >= edge.from() && z[0] + edge.roller_radius() <= edge.to()) return false;  // it touches no farther away
+        if (z[0] - edge.roller_radius() >= edge.from() && z[0] + edge.roller_radius() <= edge.to()) return false;  // it cannot touch farther away
         const double x = edge.nearest({z[0], z[1]});
         if (x >= edge.from() && x <= edge.to()) return false;
         notes_.push_back(fmt::format("joint {}: from t = {:.4g} s on it runs beyond its edge ({} = {:.4g} m), where nobody has looked for corners, and for hollows that the roller does not fit into: let from and to go as far as it runs",
@@ -43,7 +43,7 @@ class BasicEdgeOverruns {
 
  private:
   const BasicSystem<S>& system_;
-  std::vector<int> inside_;  // joints that have not left theirs
+  std::vector<int> inside_;  // joints whose roller has not left its edge
   std::vector<std::string> notes_;
   std::vector<typename S::Motion> m_;
 };

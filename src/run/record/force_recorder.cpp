@@ -12,7 +12,7 @@ namespace pintle {
 
 namespace {
 
-// Of the stiffest joint against turns [N*m/rad].
+// Of the joint that is stiffest against rotation [N*m/rad].
 template <class S>
 double largest_angular_stiffness(const BasicSystem<S>& system) {
   double stiffest = 0;
@@ -37,7 +37,7 @@ void BasicForceRecorder<S>::start(const BasicState<S>& state, const LoadSampling
 template <class S>
 void BasicForceRecorder<S>::see_step(BasicStepper<S>& stepper) {
   step_ = stepper.state().t - stepper.previous().t;
-  // Borders are crossed before a step, whose own heat comes after them.
+  // Borders are crossed before a step; the heat of the step itself comes after them.
   for (std::size_t i = heat_at_crossings_.size(); what_ != Recorded::kForces && i < stepper.crossings().size(); ++i)
     heat_at_crossings_.push_back(loads_->heat(stepper.crossings()[i].joint, stepper.previous()));
   loads_->add_step(stepper);

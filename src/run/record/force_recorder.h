@@ -1,4 +1,4 @@
-// Records what a run needs of its states whatever the space: joint forces, energies, and between the rows the statistics of all loads.
+// Records what a run needs of its states, in the plane and in space: joint forces, energies, and the statistics of all loads, also between rows.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@
 namespace pintle {
 
 enum class Recorded {
-  kColumns,  ///< everything that a table shows of every row
-  kForces,   ///< the joint forces only: summaries of the joints, no columns, springs, motors, energies
+  kColumns,  ///< everything that a table shows for every row
+  kForces,   ///< only the joint forces: summaries of the joints, but no columns, springs, motors or energies
   kStates,   ///< joint forces and energies, and the velocities of the bodies
 };
 
@@ -29,38 +29,38 @@ class BasicForceRecorder {
   BasicForceRecorder(const BasicSystem<S>& system, Recorded what);
   virtual ~BasicForceRecorder() = default;
 
-  /// The start of a run, and its first row.
+  /// Starts a run and adds its first row.
   void start(const BasicState<S>& state, const LoadSampling& sampling);
-  /// Adds a row. Called in the order of time.
+  /// Adds a row. Call in order of time.
   virtual void add(const BasicState<S>& state);
-  /// A step has been made.
+  /// Call after each step.
   void see_step(BasicStepper<S>& stepper);
-  /// The end of the run, and its last row.
+  /// Ends the run and adds its last row.
   void finish(const BasicStepper<S>& stepper);
   const std::vector<DrivePeak<S>>& drive_peaks() const { return drive_peaks_.all(); }
-  /// Of the last row.
+  /// Motions of the last row.
   const std::vector<typename S::Motion>& last_motions() const { return m_; }
   const BasicForceTable<S>& forces() const { return forces_; }
   BasicForceTable<S> take_forces() { return std::move(forces_); }
-  /// Of a run that has started.
+  /// Available once the run has started.
   const BasicLoadRecorder<S>& loads() const { return *loads_; }
-  /// Heat of the joint of each of the stepper's crossings, up to it [J].
+  /// For each of the stepper's crossings, the heat of its joint up to then [J].
   const std::vector<double>& heat_at_crossings() const { return heat_at_crossings_; }
-  /// Forgets what only the result shows.
+  /// Discards what only the final result needs.
   virtual void keep_forces_only();
-  /// Summaries of the joints, the energy account, notes.
+  /// Fills in the summaries of the joints, the energy account and notes.
   virtual void fill(Trajectory& trajectory);
 
  protected:
   struct Energies {
     double kinetic, potential, dissipated, supplied;  // [J]
   };
-  /// What is sampled beside the joint loads; none.
+  /// What is sampled in addition to the joint loads; nothing by default.
   virtual const typename BasicLoadRecorder<S>::Signals* signals() const { return nullptr; }
 
   const BasicSystem<S>& system_;
   Recorded what_;
-  std::vector<typename S::Motion> m_;  // of the row
+  std::vector<typename S::Motion> m_;  // of the last row
   BasicForceTable<S> forces_;
   std::vector<Energies> energies_;     // per row, unless only forces are recorded
 
@@ -68,7 +68,7 @@ class BasicForceRecorder {
   void add_energies(const BasicState<S>& state);
   void fill_account(EnergyAccount& account) const;
 
-  double step_ = 0;  // the last [s]
+  double step_ = 0;  // the last one [s]
   std::optional<BasicLoadRecorder<S>> loads_;  // from the start
   std::vector<double> heat_, heat_at_crossings_;  // of each joint over the run, and as above [J]
   BasicStuckJoints<S> stuck_joints_;

@@ -11,13 +11,13 @@ namespace pintle {
 template <class S>
 struct BasicForceTable {
   std::vector<double> t;     // [s]
-  std::vector<double> step;  // of the integration, that the time lies in or ends; 0 at the start [s]
+  std::vector<double> step;  // the integration step that the time lies in or ends; 0 at the start [s]
   PositionsOf<S> place;   // row-major: per time, per body
-  VecsOf<S> velocity;     // the same; where it is kept
+  VecsOf<S> velocity;     // the same, if it is kept
   VecsOf<S> world;        // row-major: per time, per joint: force [N] and couple [N*m] on the second body, as `joint_load` gives them
-  double largest_load = 0;   // on a body, over all steps: LoadScale; 0 of methods that have none [N]
-  double rounding = 0;       // of the places, times the largest stiffness: forces below it are nothing else [N]
-  double rounding_couple = 0;  // the same of angles and couples [N*m]
+  double largest_load = 0;   // on a body, over all steps, from LoadScale; 0 for methods without one [N]
+  double rounding = 0;       // roundoff of the positions times the largest stiffness: forces below it are nothing else [N]
+  double rounding_couple = 0;  // the same for angles and couples [N*m]
 };
 using ForceTable = BasicForceTable<Planar>;
 
@@ -25,10 +25,10 @@ using ForceTable = BasicForceTable<Planar>;
 template <class S>
 typename S::Vec joint_load(const BasicSystem<S>& system, int j, const std::vector<typename S::Motion>& m, const typename S::Vec& force);
 
-/// Whether the joint's law can pass on a couple: it holds an angle, or stops it.
+/// Whether the joint's law can transmit a couple: it holds an angle, or stops it.
 template <class S>
 bool transmits_couple(const BasicJointData<S>& joint);
-/// Whether it has one at all: it transmits it, rubs, or is a servo.
+/// Whether the joint has a couple at all: it transmits one, rubs, or is a servo.
 template <class S>
 bool has_couple(const BasicJointData<S>& joint);
 
@@ -39,7 +39,7 @@ double magnitude(const double* x) {
   else if constexpr (n == 2) return std::hypot(x[0], x[1]);
   else return std::hypot(x[0], x[1], x[2]);
 }
-/// Of the translations (or the force), and of the rotations (or the couple) in a vector of S.
+/// Magnitudes of the translation (or force) and of the rotation (or couple) in a vector of S.
 template <class S>
 double linear_magnitude(const typename S::Vec& x) { return magnitude<S::kDim>(x.data()); }
 template <class S>

@@ -9,9 +9,9 @@
 namespace pintle {
 namespace {
 
-constexpr int kMostHalvings = 10;  // of a part of a step; a jump of the loads is never resolved. With 5, a pulse of 0.4 ms in a second has its RMS to 4e-4 only
+constexpr int kMostHalvings = 10;  // upper limit on halvings of a part of a step; a jump of the loads is never resolved. With 5, the RMS of a pulse of 0.4 ms in a second is right to 4e-4 only
 
-// At the end of a step what it came to: what laws set their states to there is the next one's.
+// At the end of a step, the state before the event: what laws set their states to there belongs to the next step.
 template <class S>
 const BasicState<S>& on_curve(BasicStepper<S>& stepper, double t) {
   return t == stepper.state().t ? stepper.state_before_event() : stepper.interpolate(t);
@@ -38,7 +38,7 @@ double BasicLoadRecorder<S>::stored(int joint, const BasicState<S>& state) const
   return system_.joints[static_cast<std::size_t>(joint)].law.energy(law_point(system_, joint, state));
 }
 
-// A run without a step has had the loads of its start.
+// A run without any steps has the loads of its start.
 template <class S>
 void BasicLoadRecorder<S>::start(const BasicState<S>& state) {
   begin_ = end_ = state.t;
@@ -55,7 +55,7 @@ void BasicLoadRecorder<S>::start(const BasicState<S>& state) {
   for (std::size_t i = 0; i < signal_.size(); ++i) first(signal_[i], samples_[static_cast<std::size_t>(stride_ - n_signals_) + i]);
 }
 
-// Of the joint's force on its gap, less what its law is fed with from outside.
+// Power of the joint's force on its gap, less what its law is supplied with from outside.
 template <class S>
 double BasicLoadRecorder<S>::power_on_gap(int j, const BasicState<S>& state) const {
   const BasicLaw<S>& law = system_.joints[static_cast<std::size_t>(j)].law;
@@ -83,7 +83,7 @@ void BasicLoadRecorder<S>::remember_lengths(const BasicState<S>& end) {
   }
 }
 
-// Where a length jumps between two steps, its drive works on what the joint stores, and no step shows it.
+// If a length jumps between two steps, its drive does work on the energy stored in the joint, which no step shows.
 template <class S>
 void BasicLoadRecorder<S>::add_work_of_length_jumps(const BasicState<S>& begin) {
   for (const DrivenLength& length : lengths_) {
@@ -99,7 +99,7 @@ void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
   const double t0 = stepper.previous().t, t1 = stepper.state().t;
   add_work_of_length_jumps(stepper.previous());
   remember_lengths(stepper.state());
-  if (end_ == begin_)  // what stands for a run without a step
+  if (end_ == begin_)  // drop the values for a run without steps
     for (auto* all : {&force_, &couple_, &signal_})
       for (CurveSums& sums : *all) sums.integral = sums.square = 0;
   end_ = t1;
@@ -137,7 +137,7 @@ void BasicLoadRecorder<S>::take_samples(BasicStepper<S>& stepper, double t0, dou
   }
 }
 
-// Whether more samples would hardly change the curves of the joints' loads. Where these are next to none beside those that errors are measured by, they are rounding.
+// Whether more samples would hardly change the curves of the joints' loads. Loads that are almost nothing compared with those in the error norm are roundoff.
 template <class S>
 bool BasicLoadRecorder<S>::is_resolved(const BasicLoadScale<S>& scale) const {
   double largest[2] = {0, 0};  // force, couple
@@ -157,14 +157,14 @@ bool BasicLoadRecorder<S>::is_resolved(const BasicLoadScale<S>& scale) const {
     for (const bool couple : {false, true}) {
       if (couple && !has_couple_[static_cast<std::size_t>(j)]) continue;
       const int first = couple ? kForce : 0, n = couple ? kCouple : kForce;
-      const double size = std::max(seen((couple ? couple_ : force_)[static_cast<std::size_t>(j)], j, first, n), sampling_.resolution * largest[couple ? 1 : 0]);  // small loads by the largest
+      const double size = std::max(seen((couple ? couple_ : force_)[static_cast<std::size_t>(j)], j, first, n), sampling_.resolution * largest[couple ? 1 : 0]);  // small loads relative to the largest
       for (int c = first; c < first + n; ++c)
         if (grid_.chebyshev_tail(samples_.data() + j * S::kDof + c, stride_) > std::max(sampling_.resolution * size, kLastBits * largest[couple ? 1 : 0])) return false;
     }
   return true;
 }
 
-// A curve through the two sides of a jump swings beyond both: there the samples alone count for the peak.
+// A curve through the two sides of a jump overshoots both: there only the samples count for the peak.
 template <class S>
 template <int n, Sums kind>
 CurveGrid::AtPoints BasicLoadRecorder<S>::add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const {
@@ -196,7 +196,7 @@ void BasicLoadRecorder<S>::add_samples(double t0, double h, bool resolved) {
   for (CurveSums& sums : signal_) add_load<1, Sums::kWithSign>(at++, t0, h, resolved, sums);
 }
 
-// What turns far, or turns round, is divided more finely than the samples.
+// Where a contact turns far, or reverses, the step is divided more finely than by the samples.
 template <class S>
 void BasicLoadRecorder<S>::add_wear(BasicStepper<S>& stepper, double t0, double t1) {
   const int parts = wear_.finer_parts(grid_);
@@ -211,7 +211,7 @@ LoadStatistics BasicLoadRecorder<S>::over_run(const CurveSums& sums) const {
   return {sums.peak, sums.peak_time, share * sums.integral, std::sqrt(share * sums.square)};
 }
 
-// The force on the second body drives the gap; what it takes out and does not store is lost.
+// The force on the second body drives the gap; what the joint takes up and does not store is lost.
 template <class S>
 double BasicLoadRecorder<S>::heat(int joint, const BasicState<S>& state) const {
   const std::size_t j = static_cast<std::size_t>(joint);

@@ -14,20 +14,20 @@ namespace pintle {
 
 /// Over the whole run.
 struct LoadStatistics {
-  double peak = 0, peak_time = 0, mean = 0, rms = 0;  // of the size; of a scalar peak and mean with their signs; [s]
+  double peak = 0, peak_time = 0, mean = 0, rms = 0;  // of the magnitude; for a scalar, peak and mean have their signs; [s]
 };
 
-/// At how many instants loads are sampled, CurveGrid, and how finely.
+/// At how many instants loads are sampled (see CurveGrid), and how finely.
 struct LoadSampling {
   int n = 3;              // instants of a step or of a part of it
-  double resolution = 0;  // of the peak: what curves through the samples may leave out. Steps in which they leave more are halved; 0: none is
-  double longest_part = std::numeric_limits<double>::infinity();  // of such a step, to begin with [s]
+  double resolution = 0;  // upper limit, as a fraction of the peak, on what curves through the samples leave out. Steps in which they leave more are halved; 0: none are
+  double longest_part = std::numeric_limits<double>::infinity();  // into which such a step is divided at first [s]
 };
 
 template <class S>
 class BasicLoadRecorder {
  public:
-  /// Scalars beside the joint loads: efforts of motors, their powers, forces of springs.
+  /// Scalars in addition to the joint loads: efforts of motors, their powers, forces of springs.
   class Signals {
    public:
     virtual ~Signals() = default;
@@ -35,7 +35,7 @@ class BasicLoadRecorder {
     virtual void put_signals(const BasicState<S>& state, const std::vector<typename S::Motion>& m, double* out) const = 0;
   };
 
-  /// `with_heat`: also what joints lose, what wears, and what pins go through. `signals`, if any, must outlive the recorder.
+  /// `with_heat`: also records losses of joints, wear, and the duty of pins. `signals`, if any, must outlive the recorder.
   BasicLoadRecorder(const BasicSystem<S>& system, const LoadSampling& sampling, bool with_heat, const Signals* signals);
 
   void start(const BasicState<S>& state);
@@ -45,7 +45,7 @@ class BasicLoadRecorder {
   LoadStatistics couple(int joint) const { return over_run(couple_[static_cast<std::size_t>(joint)]); }
   LoadStatistics signal(int i) const { return over_run(signal_[static_cast<std::size_t>(i)]); }
   double span() const { return end_ - begin_; }  // [s]
-  /// What the law of a joint has turned into heat from the start up to `state`, the end of the last step [J]. theory/time Eq. (5.4)
+  /// Heat that the law of a joint has produced from the start up to `state`, the end of the last step [J]. theory/time Eq. (5.4)
   double heat(int joint, const BasicState<S>& state) const;
   const BasicWearTally<S>& wear() const { return wear_; }
   const BasicDutyTally<S>& duty() const { return duty_; }
@@ -72,11 +72,11 @@ class BasicLoadRecorder {
   bool with_heat_;
   const Signals* signals_;
   int n_signals_, stride_;
-  std::vector<double> samples_;  // instants, then the loads of all joints, the powers on their gaps, the signals
+  std::vector<double> samples_;  // for each instant: the loads of all joints, the powers on their gaps, the signals
   std::vector<typename S::Motion> m_;
   std::vector<CurveSums> force_, couple_, signal_;
   std::vector<bool> has_couple_;
-  std::vector<double> work_, stored_;  // of each joint's force on its gap since the start, less what feeds it; stored at the start [J]
+  std::vector<double> work_, stored_;  // work of each joint's force on its gap since the start, less the supply to its law; energy stored at the start [J]
   /// A joint with a length that is a function of time, as the last step left it.
   struct DrivenLength {
     int joint = 0;

@@ -1,4 +1,4 @@
-// Peaks, means and RMS are those of the forces' curves, whatever the output step; heat is the loss of each joint.
+// Peaks, means and RMS are those of the forces' curves, regardless of the output step; heat is the loss of each joint.
 #include "run/record/load_statistics.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace pintle {
 namespace {
 
-// Of a curve in the plane, in `steps` equal steps over 1 s.
+// Sums over a curve in the plane, in `steps` equal steps over 1 s.
 template <class Curve>
 CurveSums sums_of(const Curve& curve, int steps, int n_samples) {
   const CurveGrid grid(n_samples);
@@ -56,7 +56,7 @@ TEST(CurveGrid, MeetsPolynomialsAndTheirIntegrals) {
   }
 }
 
-// An ellipse with the half axes 3 and 1, once round: the size is largest at its ends, and its square has the mean 5.
+// An ellipse with the half axes 3 and 1, traversed once: the magnitude is largest at its ends, and the mean of its square is 5.
 TEST(CurveSums, OfAnEllipse) {
   const auto ellipse = [](double t) { return std::pair{3 * std::cos(2 * std::numbers::pi * (t - 0.28)), std::sin(2 * std::numbers::pi * (t - 0.28))}; };
   const double mean = 12 * std::comp_ellint_2(std::sqrt(8.0 / 9)) / (2 * std::numbers::pi);
@@ -78,7 +78,7 @@ TEST(CurveSums, PeaksAtEndsAndJustInside) {
   }
 }
 
-// The pin's force is largest as the rod hangs down, at 0.484 s: rows 0.3 s apart know nothing of it.
+// The pin's force is largest when the rod hangs down, at 0.484 s: rows 0.3 s apart miss it.
 TEST(LoadStatistics, DoNotDependOnTheRows) {
   Model model = sample::pendulum(2e8, 3500);
   model.simulate.duration = 0.9;
@@ -93,7 +93,7 @@ TEST(LoadStatistics, DoNotDependOnTheRows) {
   EXPECT_NEAR(few.peak_time, many.peak_time, 1e-9);
 }
 
-// Through the rows alone, 10^5 of them.
+// Compared with values from the rows alone, 10^5 of them.
 TEST(LoadStatistics, AreThoseOfVeryManyRows) {
   Model model = sample::four_bar(1e8, 3000);
   model.simulate.duration = 0.6;
@@ -117,7 +117,7 @@ TEST(LoadStatistics, AreThoseOfVeryManyRows) {
   }
 }
 
-// Path, cubed load over it, swing and speed of each pin, through the rows alone.
+// Path, cubed load over it, swing and speed of each pin, compared with values from the rows alone.
 TEST(LoadStatistics, DutyIsThatOfVeryManyRows) {
   Model model = sample::four_bar(1e8, 3000);
   model.simulate.duration = 0.6;
@@ -154,7 +154,7 @@ TEST(LoadStatistics, DutyIsThatOfVeryManyRows) {
   }
 }
 
-// What all joints lose is what the run loses: nothing else here does.
+// The losses of all joints add up to those of the run: nothing else dissipates here.
 TEST(LoadStatistics, HeatAddsUpToWhatIsLost) {
   Model model = sample::four_bar(1e6, 300);
   model.simulate.duration = 0.6;

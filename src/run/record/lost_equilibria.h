@@ -1,4 +1,4 @@
-// Joints of flexures that a run has taken where their blades have no equilibrium.
+// Flexure joints that a run has taken to where their blades have no equilibrium.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace pintle {
 template <class S>
 class BasicLostEquilibria {
  public:
-  /// Those with a law that says so: by a column called `equilibrium`.
+  /// Watches the joints whose law reports this, in a column called `equilibrium`.
   explicit BasicLostEquilibria(const BasicSystem<S>& system) : system_(system) {
     for (int j = 0; j < system.n_joints(); ++j) {
       const std::vector<LawColumn> columns = system.joints[j].law.columns();
@@ -24,7 +24,7 @@ class BasicLostEquilibria {
       if (found != columns.end()) joints_.push_back({j, static_cast<std::size_t>(found - columns.begin())});
     }
   }
-  /// The end of a step, or an output row inside a step before it.
+  /// Call at the end of a step, or at an output row inside it, before its end.
   void see(const BasicState<S>& state) {
     for (Joint& joint : joints_) {
       if (state.t >= joint.lost_at) continue;
@@ -45,8 +45,8 @@ class BasicLostEquilibria {
  private:
   struct Joint {
     int index;
-    std::size_t column;  // among the law's
-    double lost_at = std::numeric_limits<double>::infinity();  // the earliest seen [s]
+    std::size_t column;  // among the law's columns
+    double lost_at = std::numeric_limits<double>::infinity();  // the earliest time seen [s]
   };
 
   const BasicSystem<S>& system_;

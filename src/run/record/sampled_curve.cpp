@@ -8,10 +8,10 @@
 namespace pintle {
 namespace {
 
-constexpr double kNear = 0.98;   // of the square of the peak so far: a step whose grid, and the parabola through its largest points, stay below is not searched; with half
-                                 // of it, a run of 120 joints takes 1.02 of the instructions, with twice as much peaks are missed
-constexpr int kRefinements = 3;  // of a peak between the points of the grid; each interval is a quarter of the one before
-constexpr double kFiner = 0.25;  // interval of a refinement over that of the one before
+constexpr double kNear = 0.98;   // fraction of the square of the peak so far: a step whose grid, and the parabola through its largest points, stay below it is not searched;
+                                 // with half of it, a run of 120 joints takes 1.02 times the instructions; with twice as much, peaks are missed
+constexpr int kRefinements = 3;  // of a peak between the points of the grid; each interval is a quarter of the previous one
+constexpr double kFiner = 0.25;  // ratio of the interval of a refinement to the previous one
 
 template <int n>
 double square_at(const CurveGrid& grid, double x, const double* samples, int stride, std::array<double, n>& value) {
@@ -32,13 +32,13 @@ constexpr CurveGrid::AtPoints kSimpson = [] {
   return weight;
 }();
 
-// Through three squares an even distance apart; x counts from the middle one in units of that distance. theory/time Eq. (5.3)
+// Through three equidistant squares; x is measured from the middle one in units of their distance. theory/time Eq. (5.3)
 struct Parabola {
   double before, here, after;
 
   double bend() const { return before - 2 * here + after; }
   double value(double x) const { return here + 0.5 * x * (after - before + x * bend()); }
-  /// The largest of its three points at an end, where it has no top.
+  /// Where it has its maximum; the larger end if it has none.
   double top() const { return bend() < 0 ? std::clamp(0.5 * (before - after) / bend(), -1.0, 1.0) : before > after ? -1 : after > before ? 1 : 0; }
 };
 

@@ -1,4 +1,4 @@
-// Curves of the loads inside a step: polynomials through samples, evaluated on an even grid, from which integrals and peaks are taken.
+// Curves of the loads inside a step: polynomials through samples, evaluated on a uniform grid, from which integrals and peaks are taken.
 // theory/time section 5.1.
 #pragma once
 
@@ -8,20 +8,20 @@
 
 namespace pintle {
 
-/// Of a step, or of several: what a curve did. Integrals are not divided by the time yet.
+/// Peak and integrals of a curve over one step or several. The integrals are not divided by the time yet.
 struct CurveSums {
-  double peak = 0, peak_time = 0;         // of the largest size, a scalar's with its sign; [s]
-  double integral = 0, square = 0;        // over time: of the size, a scalar's with its sign; of its square
+  double peak = 0, peak_time = 0;         // largest magnitude, with its sign for a scalar; [s]
+  double integral = 0, square = 0;        // over time: of the magnitude, with its sign for a scalar; of its square
 };
 
-/// The instants of a step at which curves are sampled, at most kMost, and the even grid on which they are evaluated. Shares of the step.
+/// The instants of a step at which curves are sampled, at most kMost, and the uniform grid on which they are evaluated, as fractions of the step.
 class CurveGrid {
  public:
   static constexpr int kMost = 7, kIntervals = 16, kPoints = kIntervals + 1;
-  using Weights = std::array<double, kMost>;        // of the samples; those that are not there have 0
+  using Weights = std::array<double, kMost>;        // of the samples; those that do not exist have 0
   using AtPoints = std::array<double, kPoints>;
 
-  /// n samples, from 2 to kMost, at the extrema of the Chebyshev polynomial of degree n - 1; a polynomial of that degree is met exactly.
+  /// n samples, from 2 to kMost, at the extrema of the Chebyshev polynomial of degree n - 1; polynomials of that degree are reproduced exactly.
   explicit CurveGrid(int n);
 
   int n() const { return n_; }
@@ -29,13 +29,13 @@ class CurveGrid {
   const Weights& at_point(int point) const { return at_point_[static_cast<std::size_t>(point)]; }
   /// Weights of one sample at all points.
   const AtPoints& of_sample(int sample) const { return of_sample_[static_cast<std::size_t>(sample)]; }
-  /// Of the integral of the polynomial over the step, in units of the step.
+  /// Weights of the integral of the polynomial over the step, in units of the step.
   const Weights& integral() const { return integral_; }
   /// The same from one sample to the next.
   const Weights& integral_after(int sample) const { return after_[static_cast<std::size_t>(sample)]; }
-  /// How large the last two Chebyshev coefficients of the polynomial through `samples[i * stride]` are together: what more samples might still change.
+  /// Sum of the magnitudes of the last two Chebyshev coefficients of the polynomial through `samples[i * stride]`: what more samples might still change.
   double chebyshev_tail(const double* samples, int stride) const;
-  /// Weights of the samples at any share of the step.
+  /// Weights of the samples at any fraction of the step.
   Weights weights(double x) const;
 
  private:
@@ -56,12 +56,12 @@ inline void along_grid(const CurveGrid& grid, const double* samples, int stride,
     for (std::size_t p = 0; p < value.size(); ++p) value[p] += weight[p] * sample;
   }
 }
-/// The largest of the values, or of the parabola through it and its neighbours.
+/// The largest of the values, or the maximum of the parabola through it and its neighbours if that is larger.
 double largest_on_grid(const CurveGrid::AtPoints& value);
 
 enum class Sums { kOfSize, kWithSign };
-/// Adds a step of h seconds from t0 to `sums` of the size of a vector of n components, whose samples are `samples[i * stride + c]`; or of a scalar with
-/// its sign. Returns the square of the size at all points.
+/// Adds a step of h seconds from t0 to `sums`, for the magnitude of a vector of n components with the samples `samples[i * stride + c]`, or for a scalar
+/// with its sign. Returns the square of the magnitude at all points.
 template <int n, Sums kind = Sums::kOfSize>
 CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
 

@@ -1,5 +1,5 @@
 // Joints that friction holds from the first step of a run to the last, or through the last half of it: a table of forces alone does not show that they
-// are jammed, or have come to rest.
+// have jammed or come to rest.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace pintle {
 template <class S>
 class BasicStuckJoints {
  public:
-  /// Those with a law that says whether they stick: by columns called `friction` and `stuck`.
+  /// Watches the joints whose law reports whether they stick, in columns called `friction` and `stuck`.
   explicit BasicStuckJoints(const BasicSystem<S>& system) : system_(system) {
     for (int j = 0; j < system.n_joints(); ++j) {
       if (system.joints[j].ideal) continue;
@@ -27,7 +27,7 @@ class BasicStuckJoints {
       held_.push_back({j, static_cast<std::size_t>(find("friction") - columns.begin()), static_cast<std::size_t>(find("stuck") - columns.begin()), find("friction")->unit});
     }
   }
-  /// The end of a step, or an output row.
+  /// Call at the end of a step, or at an output row.
   void see(const BasicState<S>& state) {
     if (!begin_) begin_ = state.t;
     end_ = state.t;
@@ -44,7 +44,7 @@ class BasicStuckJoints {
       joint.force = std::max(joint.force, state.force[joint.index].cwiseProduct(typename S::Vec(S::Vec::Ones() - system_.joints[joint.index].free_mask)).norm());
     }
   }
-  /// One for each joint that does not slip any more although its friction has something to carry, and no stop holds it.
+  /// One for each joint that no longer slips although its friction carries a load and no stop holds it.
   std::vector<std::string> notes() const {
     std::vector<std::string> notes;
     for (const Joint& joint : held_) {
@@ -58,21 +58,21 @@ class BasicStuckJoints {
   }
 
  private:
-  static constexpr double kCarries = 1e-6;  // of the joint's force, or of as small a part of the largest: less is rounding
-  static constexpr double kLong = 0.5;      // of the run, that a joint has to stick for a note
+  static constexpr double kCarries = 1e-6;  // fraction of the joint's force, or of this fraction of the largest force: less is roundoff
+  static constexpr double kLong = 0.5;      // fraction of the run for which a joint has to stick for a note
   struct Joint {
     int index;
     std::size_t at_friction, at_stuck;  // among the law's columns
     std::string unit;
-    std::optional<double> since{};  // it sticks [s]
-    double friction = 0, force = 0;  // the largest; of what is held
-    bool by_stop = true;             // it has leant on a stop since then
+    std::optional<double> since{};  // when it began to stick [s]
+    double friction = 0, force = 0;  // the largest friction; the largest force in the held components
+    bool by_stop = true;             // it has rested on a stop ever since then
   };
 
   const BasicSystem<S>& system_;
   std::vector<Joint> held_;
-  std::optional<double> begin_;  // what has been seen [s]
-  double end_ = 0, largest_ = 0;  // of all joint forces [N]
+  std::optional<double> begin_;  // first time seen [s]
+  double end_ = 0, largest_ = 0;  // last time seen [s]; largest joint force [N]
   std::vector<double> values_;  // reused so that steps do not allocate
 };
 

@@ -9,7 +9,7 @@
 namespace pintle {
 namespace {
 
-// Work that is done while a contact goes from one angle to another, the shorter way, over the sectors that it goes through.
+// Distributes the work done while a contact moves from one angle to another, the shorter way, over the sectors that it passes.
 void spread(double from, double to, double work, std::vector<double>& sectors) {
   const auto n = static_cast<double>(sectors.size());
   const double begin = from * n / kTurn, way = std::remainder(to - from, kTurn) * n / kTurn, end = begin + way;
@@ -54,8 +54,8 @@ void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
 
 template <class S>
 int BasicWearTally<S>::finer_parts(const CurveGrid& grid) const {
-  constexpr int kPerSector = 4;  // samples in each sector that a pin passes: the sectors of a swing (test Wear) have their wear to 2.5e-4 then, to 1e-3 with 2
-  constexpr int kAtKink = 32;    // parts of a curve with a kink: the last sector of that swing has its wear to 1.1e-3 then, to 1.1e-2 with 16, to 0.09 with none
+  constexpr int kPerSector = 4;  // samples in each sector that a pin passes: the wear of the sectors of a swing (test Wear) is right to 2.5e-4; with 2, to 1e-3
+  constexpr int kAtKink = 32;    // parts of a curve with a kink: the wear of the last sector of that swing is right to 1.1e-3; with 16, to 1.1e-2; with none, to 0.09
   int parts = 0;
   for (const Worn& worn : worn_) {
     const Sample &first = worn.samples.front(), &last = worn.samples[static_cast<std::size_t>(grid.n() - 1)];

@@ -1,4 +1,4 @@
-// What pins with clearance and their bushes wear off each other, by sectors around them. theory/bearing_life section 5.
+// Wear of pins with clearance and of their bushes, by sectors around them. theory/bearing_life section 5.
 #pragma once
 
 #include <vector>
@@ -14,18 +14,18 @@ class BasicWearTally {
  public:
   static constexpr int kSectors = 72;  // of a bush, 5 degrees each: a polar diagram's resolution
 
-  /// Of the joints whose law tells `wear_power` and `contact_angle`.
+  /// For the joints whose law reports `wear_power` and `contact_angle`.
   explicit BasicWearTally(const BasicSystem<S>& system);
 
   bool empty() const { return worn_.empty(); }
-  /// Sample i of a step.
+  /// Takes sample i of a step.
   void sample(int i, const BasicState<S>& state);
-  /// Into how many equal parts the step must be divided whose samples on `grid` are here, so that pins and contacts turn by a small part of a sector in each, and
-  /// a kink, as where a slip turns round, is seen; 0: these samples will do.
+  /// The number of equal parts into which the step with the present samples on `grid` must be divided, so that pins and contacts turn by a small part of a sector
+  /// in each, and a kink, as where slip reverses, is seen; 0: these samples are enough.
   int finer_parts(const CurveGrid& grid) const;
-  /// Adds a step of h seconds by the curves through the samples of `grid`.
+  /// Adds a step of h seconds from the curves through the samples of `grid`.
   void add_curve(const CurveGrid& grid, double h);
-  /// Adds a step of h seconds by trapezoids between n + 1 samples an even distance apart.
+  /// Adds a step of h seconds by the trapezoidal rule between n + 1 equidistant samples.
   void add_trapezoids(int n, double h);
   std::vector<JointWear> result() const;
 

@@ -1,4 +1,4 @@
-// Belts and ropes that a run has wound up to their end, or whose discs have come to each other.
+// Belts and ropes that a run has wound up to their end, or whose discs have met.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ class BasicWoundBelts {
       for (int j = 0; j < system.n_joints(); ++j)
         if (const auto belt = belt_of(system.joints[static_cast<std::size_t>(j)].displacement)) belts_.push_back({j, *belt});
   }
-  /// The end of a step, or an output row inside a step before it.
+  /// Call at the end of a step, or at an output row inside it, before its end.
   void see(const BasicState<S>& state) {
     if constexpr (S::kDim == 2) {
       if (belts_.empty()) return;
@@ -43,7 +43,7 @@ class BasicWoundBelts {
   }
 
  private:
-  static constexpr double kEnd = 0.05;  // of the larger radius: the free run of a belt whose end has come to its disc, up to 1.2e-3 radii beside the line of the run
+  static constexpr double kEnd = 0.05;  // fraction of the larger radius: with a shorter free run, a belt's end has come to its disc, up to 1.2e-3 radii beside the line of the run
   struct Wound {
     int joint;
     Belt belt;
