@@ -18,11 +18,10 @@ T margin_of(std::span<const T> operands) {
   return operands.size() > 1 ? apply(Op::kSubtract, operands[0], operands[1]) : operands[0];
 }
 
+double result_at(Op op, double margin) { return arity(op) == 1 ? apply(op, margin) : apply(op, margin, 0.0); }
+
 // The result of operation `op` on the low side of its jump (0) or on the high one (1).
-double on_side(Op op, int side) {
-  const double margin = side == 0 ? -1 : 1;
-  return arity(op) == 1 ? apply(op, margin) : apply(op, margin, 0.0);
-}
+double on_side(Op op, int side) { return result_at(op, side == 0 ? -1 : 1); }
 
 // The argument of the table at instruction `call`.
 double argument_at(const Expression::Program& program, std::size_t call, double x) {
@@ -67,7 +66,7 @@ std::optional<std::size_t> Expression::jump_between(std::span<const double> from
   if (!program_) return {};
   const auto& code = program_->code;
   for (std::size_t i = 0; i < code.size(); ++i)
-    if (jumps(code[i].op) && (margin(i, from) > 0) != (margin(i, to) > 0)) return i;
+    if (jumps(code[i].op) && result_at(code[i].op, margin(i, from)) != result_at(code[i].op, margin(i, to))) return i;  // exactly on the jump the operation decides the side
   return {};
 }
 

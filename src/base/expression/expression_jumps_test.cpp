@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/expression/expression_parser.h"
@@ -29,6 +31,19 @@ TEST(ExpressionJumps, AreFoundBetweenPoints) {
   ASSERT_TRUE(jump.has_value());
   EXPECT_DOUBLE_EQ(e.margin(*jump, low), -0.1);
   EXPECT_DOUBLE_EQ(e.margin(*jump, high), 0.2);
+}
+
+// A value exactly on the jump belongs to the side that the comparison gives it: 25 is not less than 25, and not more either.
+TEST(ExpressionJumps, TheComparisonDecidesOnWhichSideTheJumpItselfIs) {
+  ParseScope scope;
+  scope.variables = {{"x", kBareNumber}};
+  const std::array at{25.0}, below{std::nextafter(25.0, 0.0)}, above{std::nextafter(25.0, 30.0)};
+  for (const auto& [text, with_below] : {std::pair{"if(x < 25, 12, 0)", false}, std::pair{"if(x >= 25, 12, 0)", false}, std::pair{"if(x > 25, 12, 0)", true}, std::pair{"if(x <= 25, 12, 0)", true}}) {
+    const Expression e = std::get<ParsedExpression>(parse_expression(text, scope)).expression;
+    EXPECT_EQ(e.jump_between(below, at).has_value(), !with_below) << text;
+    EXPECT_EQ(e.jump_between(at, above).has_value(), with_below) << text;
+    EXPECT_TRUE(e.jump_between(below, above).has_value()) << text;
+  }
 }
 
 // abs(y) has a kink but no jump.
