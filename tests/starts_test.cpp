@@ -188,7 +188,7 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   const std::string notes = notes_of(model);
   EXPECT_NE(notes.find(fmt::format("body crank: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s", right, -2 * right)), std::string::npos) << notes;
   crank.spin = 0;
-  EXPECT_NE(notes_of(model).find("body crank: stated at rest, but moving at the start: joints or motors ask for it"), std::string::npos);
+  EXPECT_NE(notes_of(model).find("body crank: stated at rest, but moving at the start: joints or motors require it"), std::string::npos);
   crank.spin.reset();
   model.bodies[0].velocity = Vec2{0, 3};
   EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
@@ -201,7 +201,7 @@ TEST(Starts, AContactThatNothingBringsTogetherStartsApartWhereItIsRaw) {
     simulate(model);
     FAIL() << "assembled";
   } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find("meant to start apart (cam), everything else closes: try start = \"raw\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Everything else closes if bodies may start apart (cam): if that is meant, try start = \"raw\""), std::string::npos) << error.what();
   }
   model.simulate.start = Start::kRaw;
   const Trajectory run = completed(model);
