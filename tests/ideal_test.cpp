@@ -288,7 +288,7 @@ TEST(Ideal, LawsThatStayBeginLoaded) {
     EXPECT_NEAR(reference::value(still, 0, "joint." + still.joints[j].name + ".on_beam.fy[world]"), carried[j], 1e-3);
   }
   EXPECT_NEAR(turning.joints[0].peak, 98.1 + 50, 0.2);
-  EXPECT_NE(turning.notes.front().find("joints that stay force laws beside the ideal ones: brg"), std::string::npos) << turning.notes.front();
+  EXPECT_NE(turning.notes.front().find("joints that remain force laws among ideal joints: brg"), std::string::npos) << turning.notes.front();
 }
 
 // They also begin with the rates that go with the motion: a bushing in a slider-crank at speed carries from its first row on what it carries one turn later.
@@ -310,7 +310,7 @@ TEST(Ideal, LawsThatRememberAreRefused) {
       simulate(model);
       ADD_FAILURE() << "not refused";
     } catch (const AssemblyError& error) {
-      EXPECT_NE(std::string(error.what()).find("joint ground: equations with ideal joints do not follow what its law remembers"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("joint ground: equations with ideal joints do not integrate the states of its law"), std::string::npos) << error.what();
     }
   }
 }

@@ -228,7 +228,7 @@ TEST(Starts, AContactThatAStopKeepsOpenStartsApart) {
 // A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.
 TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   const std::string notes = notes_of(reference::test_model("pump_jack_with_loose_saddle"));
-  EXPECT_NE(notes.find("joints start in the middle of their play (saddle) and strike the sides of it first"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("joints start in the middle of their play (saddle) and strike its sides first"), std::string::npos) << notes;
   EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("start in the middle"), std::string::npos);
   EXPECT_EQ(notes_of(test_model("rotor_on_balls", {"joint.brg.play=\"20 um\""})).find("start in the middle"), std::string::npos);  // it is pressed through its play
 }
