@@ -166,7 +166,7 @@ TEST(Belts, SayWhatIsWrong) {
   says("first_radius = 0.2\nfirst_side = \"top\"", "it is none of left, right");
   says("first_radius = 0.2\nsecond_side = \"left\"", "the belt ends in the second marker");
   says("second_radius = 0.2\nfirst_side = \"left\"", "the belt ends in the first marker");
-  says("first_radius = 9", "its discs are 8.002 m apart, and the belt has no way between them: that takes more than 9 m");
+  says("first_radius = 9", "its discs are 8.002 m apart, and the belt cannot run between them: that takes more than 9 m");
 }
 
 // A weight on a rope that is exactly as long as its way is at rest under its load; on a longer one it falls.

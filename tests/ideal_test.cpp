@@ -219,7 +219,7 @@ TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
     const Trajectory failed = simulate(driven_arm(motor, "ideal", "1"));
     EXPECT_EQ(failed.outcome, Outcome::kFailed) << motor;
     EXPECT_NEAR(failed.t_end, 0.5, 1e-9);
-    EXPECT_NE(failed.message.find("motor m is to change its speed by -1 rad/s at once at t = 0.5 s"), std::string::npos) << failed.message;
+    EXPECT_NE(failed.message.find("motor m is to change its speed by -1 rad/s instantly at t = 0.5 s"), std::string::npos) << failed.message;
     for (const char* equations : {"newtonian", "relative"}) {
       const Trajectory run = completed(driven_arm(motor, equations, "1"));
       EXPECT_NEAR(value(run, run.n_rows() - 1, "body.a.angle"), 0.5, 1e-4) << motor << equations;
@@ -241,7 +241,7 @@ TEST(Ideal, AMotorThatStartsOnAKinkHasTheSpeedBehindIt) {
     }
   }
   const Trajectory failed = simulate(driven_arm("position = \"abs(1 rad - 2 rad/s*t)\"", "ideal", "-2"));
-  EXPECT_NE(failed.message.find("motor m is to change its speed by 4 rad/s at once at t = 0.5 s"), std::string::npos) << failed.message;
+  EXPECT_NE(failed.message.find("motor m is to change its speed by 4 rad/s instantly at t = 0.5 s"), std::string::npos) << failed.message;
 }
 
 // What balances a load that no motion shows has its peak and mean, whatever the steps of the motion are: an arm that a motor holds, by its pin.
@@ -288,7 +288,7 @@ TEST(Ideal, LawsThatStayBeginLoaded) {
     EXPECT_NEAR(reference::value(still, 0, "joint." + still.joints[j].name + ".on_beam.fy[world]"), carried[j], 1e-3);
   }
   EXPECT_NEAR(turning.joints[0].peak, 98.1 + 50, 0.2);
-  EXPECT_NE(turning.notes.front().find("joints that stay force laws beside the ideal ones: brg"), std::string::npos) << turning.notes.front();
+  EXPECT_NE(turning.notes.front().find("joints that remain force laws among ideal joints: brg"), std::string::npos) << turning.notes.front();
 }
 
 // They also begin with the rates that go with the motion: a bushing in a slider-crank at speed carries from its first row on what it carries one turn later.
@@ -310,7 +310,7 @@ TEST(Ideal, LawsThatRememberAreRefused) {
       simulate(model);
       ADD_FAILURE() << "not refused";
     } catch (const AssemblyError& error) {
-      EXPECT_NE(std::string(error.what()).find("joint ground: equations with ideal joints do not follow what its law remembers"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("joint ground: equations with ideal joints do not integrate the states of its law"), std::string::npos) << error.what();
     }
   }
 }

@@ -188,7 +188,7 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   const std::string notes = notes_of(model);
   EXPECT_NE(notes.find(fmt::format("body crank: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s", right, -2 * right)), std::string::npos) << notes;
   crank.spin = 0;
-  EXPECT_NE(notes_of(model).find("body crank: stated at rest, but moving at the start: joints or motors ask for it"), std::string::npos);
+  EXPECT_NE(notes_of(model).find("body crank: stated at rest, but moving at the start: joints or motors require it"), std::string::npos);
   crank.spin.reset();
   model.bodies[0].velocity = Vec2{0, 3};
   EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
@@ -201,7 +201,7 @@ TEST(Starts, AContactThatNothingBringsTogetherStartsApartWhereItIsRaw) {
     simulate(model);
     FAIL() << "assembled";
   } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find("meant to start apart (cam), everything else closes: try start = \"raw\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Everything else closes if bodies may start apart (cam): if that is meant, try start = \"raw\""), std::string::npos) << error.what();
   }
   model.simulate.start = Start::kRaw;
   const Trajectory run = completed(model);
@@ -228,7 +228,7 @@ TEST(Starts, AContactThatAStopKeepsOpenStartsApart) {
 // A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.
 TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   const std::string notes = notes_of(reference::test_model("pump_jack_with_loose_saddle"));
-  EXPECT_NE(notes.find("joints start in the middle of their play (saddle) and strike the sides of it first"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("joints start in the middle of their play (saddle) and strike its sides first"), std::string::npos) << notes;
   EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("start in the middle"), std::string::npos);
   EXPECT_EQ(notes_of(test_model("rotor_on_balls", {"joint.brg.play=\"20 um\""})).find("start in the middle"), std::string::npos);  // it is pressed through its play
 }

@@ -148,7 +148,7 @@ TEST(TautMechanisms, TheRunSaysThatTheMechanismHasComeToItsLimit) {
     model.simulate.equations = equations;
     const Trajectory run = simulate(model);
     EXPECT_TRUE(noted(run, "came to its limit at t = 0.181")) << run.notes.front();
-    EXPECT_TRUE(noted(run, "the angle of joint O can go no further than 122.005 deg, where joints A, B and C are in line. Motor drive went on pushing: with 145")) << run.notes.front();
+    EXPECT_TRUE(noted(run, "the angle of joint O can go no further than 122.005 deg, where joints A, B and C are in line. Motor drive kept pushing: with 145")) << run.notes.front();
     EXPECT_TRUE(noted(run, "deg behind")) << run.notes.front();
   }
   // A stiff motor comes there when its speed says, whatever it does later.
@@ -172,7 +172,7 @@ TEST(TautMechanisms, TheLimitIsTheFirstThatItCameTo) {
   const Trajectory run = simulate(reference::test_model("double_rocker_driven"));
   EXPECT_TRUE(noted(run, "came to its limit at t = 0.01572 s: the angle of joint O2 can go no further than 75.5225 deg")) << run.notes.front();
   EXPECT_TRUE(noted(run, "at t = 0.93")) << run.notes.front();
-  EXPECT_FALSE(noted(run, "given way by")) << "of another limit: " << run.notes.front();
+  EXPECT_FALSE(noted(run, "past the limit")) << "of another limit: " << run.notes.front();
 }
 
 // Ideal joints cannot give way: the run ends there, and says why.
@@ -182,7 +182,7 @@ TEST(TautMechanisms, IdealJointsStopAtTheLimit) {
   const Trajectory run = simulate(model);
   EXPECT_NE(run.outcome, Outcome::kCompleted);
   EXPECT_EQ(run.message.find("the mechanism came to its limit"), 0u) << run.message;
-  EXPECT_NE(run.message.find("can go no further than 122.005 deg, where joints A, B and C are in line; motor drive asks for more. Behind that: "), std::string::npos) << run.message;
+  EXPECT_NE(run.message.find("can go no further than 122.005 deg, where joints A, B and C are in line; motor drive commands more. What followed: "), std::string::npos) << run.message;
 }
 
 // A start that no preload can be found for, half a hundredth of a degree before the limit, and a switch of the command's formula where the run ends.

@@ -56,7 +56,7 @@ void add_life(const Bearing& bearing, const PinDuty& duty, double relative_scatt
   const double exponent = life_exponent(bearing);
   if (std::isnan(exponent)) return;
   if (!(out.path > 0)) {
-    out.remarks.push_back("it does not turn: there is no life by rolling, and the static safety counts");
+    out.remarks.push_back("it does not turn: rolling life does not apply, the static safety does");
     return;
   }
   out.equivalent_load = std::pow((exponent == 3 ? duty.load_3 : duty.load_10_3) / out.path, 1 / exponent);
@@ -132,7 +132,7 @@ void add_wear(const Bearing& bearing, const Trajectory& run, BearingSummary& out
   const auto wear = std::find_if(run.wear.begin(), run.wear.end(), [&out](const JointWear& one) { return one.joint == out.joint; });
   if (wear == run.wear.end()) {
     const bool loose = run.column("joint." + out.joint + ".wear_power") >= 0;
-    out.remarks.push_back(loose ? "this run does not tell where it wears: run it again" : "only a pin with clearance tells where it wears: law = \"clearance\"");
+    out.remarks.push_back(loose ? "this run has no record of where it wears: run it again" : "wear is recorded only for a pin with clearance: law = \"clearance\"");
     return;
   }
   const WornSector most = most_worn(wear->bush);
@@ -169,14 +169,14 @@ BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Tra
   out.force_error = load.error_estimate;
   const bool chaotic = run.outcome == Outcome::kHorizon && load.horizon < run.t_end;
   if (chaotic)
-    out.remarks.push_back(fmt::format("the motion is chaotic: forces are promised up to t = {:.5g} s, and the errors of P and of the life are how far two motions differ that agree so long", load.horizon));
+    out.remarks.push_back(fmt::format("the motion is chaotic: forces are promised up to t = {:.5g} s, and the errors of P and of the life are the difference between two motions that agree up to then", load.horizon));
   const PinDuty* duty = parts.duty(load.name);
   if (duty != nullptr) {
     add_duty(*duty, run.t_end, out);
     add_life(bearing, *duty, chaotic ? relative_scatter(load) : 0, out);
   } else {
     out.path = out.swing = out.mean_speed = out.peak_speed = kNone;
-    out.remarks.push_back("this run does not tell how far it turns under which load: run it again");
+    out.remarks.push_back("this run has no record of its rotation under load: run it again");
   }
   add_static_safety(bearing, out);
   add_pressure(bearing, duty, run.t_end, out);

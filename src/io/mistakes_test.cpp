@@ -60,7 +60,7 @@ const std::vector<Mistake> kMistakes{
     {"[joint.B]", "[joint.O2.bearing]\n@pin_diametre = 1\n\n[joint.B]", "joint.O2.bearing.pin_diametre", "no such key", "pin_diameter"},
     {"angular_stiffness = \"5e5 N*m/rad\"", "@bearing = { type = \"ball\" }", "joint.B.bearing", "a prismatic joint has no pin", "revolute"},
     {"stiffness = [\"1e6 N/m\", \"2e6 N/m\"]", "bearing = @3", "joint.A.bearing", "a table is expected"},
-    {"method = \"radau\"\nstart = \"unloaded\"", "start = \"@settled\"\nequations = \"ideal\"", "simulate.start", "with these equations no mechanism"},
+    {"method = \"radau\"\nstart = \"unloaded\"", "start = \"@settled\"\nequations = \"ideal\"", "simulate.start", "these equations cannot bring a mechanism"},
     {"format = 1\n", "@name2 = 1\nformat = 1\n", "name2", "no such key", "did you mean \"name\"?"},
     {"format = 1\n", "format = @2\n", "format", "newer than the program"},
     {"format = 1\n", "format = @0\n", "format", "at least 1"},

@@ -324,8 +324,8 @@ TEST(ReadModel, ALawIsChosenWithItsKeys) {
 TEST(ReadModel, KeysOfAnotherLawWaitWhereALawIsStated) {
   const Model model = parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.clearance=\"0.1 mm\"", "joint.A.restitution=0.9"});
   EXPECT_EQ(model.joints[1].law.values.count("clearance"), 0U);
-  EXPECT_EQ(model.notes.at(0), "joint A: clearance, restitution are keys of other laws than the stated, and without effect");
-  EXPECT_EQ(parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.clearance=\"0.1 mm\""}).notes.at(0), "joint A: clearance is a key of other laws than the stated, and without effect");
+  EXPECT_EQ(model.notes.at(0), "joint A: clearance, restitution are keys of other laws than the stated one, without effect");
+  EXPECT_EQ(parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.clearance=\"0.1 mm\""}).notes.at(0), "joint A: clearance is a key of other laws than the stated one, without effect");
   EXPECT_THROW(parse_model(kFullModel, "full.toml", {"joint.O2.clearance=\"0.1 mm\""}), InputError);
   EXPECT_THROW(parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.notch_width=0.01"}), InputError);
 }

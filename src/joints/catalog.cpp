@@ -93,7 +93,7 @@ JointDisplacement make_belt(const Geometry& g) {
 }
 GeometryFault tie_fault(const Geometry& g) {
   if (!g.contains("length") || !g.contains("stretch")) return {};
-  return {"stretch", "the length is stated already, and where the points are when assembled says how far it is stretched", "delete one of both: without length it is the distance as assembled, less the stretch"};
+  return {"stretch", "the length is stated already, and the assembled positions of the points determine the stretch", "delete one of the two: without length it is the distance as assembled, less the stretch"};
 }
 GeometryFault belt_fault(const Geometry& g) {
   const double first = value(g, "first_radius", 0), second = value(g, "second_radius", 0);

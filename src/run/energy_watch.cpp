@@ -102,13 +102,13 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
   for (const int j : belts_) {
     const double gap = state.gap[j][0];
     if (!is_at_end_of_range(system_.joints[j].displacement, gap)) continue;
-    message_ = fmt::format("joint {} is {} by {:.4g} m at t = {:.6g} s, as far as this method tells slack from stretch: it does not count the turns of discs. Use method radau, which does", system_.joints[j].name,
+    message_ = fmt::format("joint {} is {} by {:.4g} m at t = {:.6g} s, the most at which this method tells slack from stretch: it does not count the turns of discs. Use method radau, which does", system_.joints[j].name,
                            gap > 0 ? "stretched" : "slack", std::abs(gap), state.t);
     return Alarm::kOpen;
   }
   for (const int j : lengths_)
     if (const BasicJointData<S>& joint = system_.joints[j]; !(target_of(joint, state.t)[0] > 0)) {
-      message_ = fmt::format("the length of joint {} has come to nothing by t = {:.6g} s: what it pulls is at its other end. End the run before, or let the length stop above 0", joint.name, state.t);
+      message_ = fmt::format("the length of joint {} has shrunk to 0 by t = {:.6g} s: its two ends have met. End the run earlier, or keep the length above 0", joint.name, state.t);
       return Alarm::kOpen;
     }
   if (++since_judged_ >= kJudgedEvery)
@@ -120,7 +120,7 @@ template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) {
   if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
   if (!exact_work_ || state.dissipated > -kGiven * turnover()) return Alarm::kNone;
-  message_ = fmt::format("joints and dampers have given {:.3g} J, and can only take: likely a damping below zero, or friction whose slip jumped within a step, as at a corner of an edge", -state.dissipated);
+  message_ = fmt::format("joints and dampers have delivered {:.3g} J, but can only dissipate: likely a negative damping, or friction whose slip jumped within a step, as at a corner of an edge", -state.dissipated);
   return Alarm::kOpen;
 }
 
@@ -153,12 +153,12 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
   const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;
   const char* cause = sudden && !loaded && ideal ? "likely a singular position of ideal joints: start elsewhere, or give its joints stiffness"
-                      : sudden && loaded ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that sees it"
+                      : sudden && loaded ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that resolves it"
                       : ideal ? "likely ideal joints near a singular position: give them stiffness"
-                              : "likely numbers too far apart in size, or steps too long for what happens in them: check masses, stiffness and loads, or set a max_step";
+                              : "likely values of very different magnitude, or steps too long to resolve the motion: check masses, stiffness and loads, or set a max_step";
   const auto motors = std::count_if(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.servo >= 0; });
   message_ = fmt::format("the energy account does not close: there are {:.3g} J too {} at t = {:.6g} s, where errors within the tolerance explain {:.2g} J; {}{}", std::abs(missing),
-                         missing > 0 ? "many" : "few", state.t, within, cause, motors > 1 ? ". Or motors that contradict each other: pintle check counts what they leave free" : "");
+                         missing > 0 ? "many" : "few", state.t, within, cause, motors > 1 ? ". Another possible cause: motors that contradict each other (pintle check counts the degrees of freedom that they leave)" : "");
 }
 
 // Eq. (8.4). Only supplied energy counts: the mechanism already had what falling weights or springs give.
@@ -212,7 +212,7 @@ std::string BasicEnergyWatch<S>::note_on_feeder() const {
 template <class S>
 void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy) {
   const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
-  message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, ten times more every {:.2g} s",
+  message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, growing tenfold every {:.2g} s",
                          decade_[0], storable_, energy, state.t, span / (2 * kCompared));
   if (const Feeder* most = largest_feeder()) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
 }

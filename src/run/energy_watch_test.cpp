@@ -45,8 +45,8 @@ TEST(EnergyWatch, ALikelyCauseIsNamed) {
     const char* cause;
   };
   for (const Case& c : {Case{true, false, true, "likely a singular position of ideal joints"}, {true, false, false, "likely ideal joints near a singular position"}, {true, true, true, "likely a load or motor that changes"},
-                        {false, true, true, "likely a load or motor that changes"}, {false, false, true, "likely numbers too far apart in size"}, {false, false, false, "likely numbers too far apart in size"},
-                        {false, true, false, "likely numbers too far apart in size"}, {true, true, false, "likely ideal joints near a singular position"}}) {
+                        {false, true, true, "likely a load or motor that changes"}, {false, false, true, "likely values of very different magnitude"}, {false, false, false, "likely values of very different magnitude"},
+                        {false, true, false, "likely values of very different magnitude"}, {true, true, false, "likely ideal joints near a singular position"}}) {
     Model model = sample::pendulum(1e8, 1000);
     if (c.loaded) {
       AppliedForce load;
@@ -100,7 +100,7 @@ TEST(EnergyWatch, HeatBelowZeroIsNoticedAtTheEnd) {
     p.state.dissipated -= given;
     p.state.supplied -= given;
     EXPECT_EQ(watch.see_end(p.state), given > 1 ? Alarm::kOpen : Alarm::kNone) << given;
-    EXPECT_EQ(watch.message().find("have given 5 J") != std::string::npos, given > 1) << watch.message();
+    EXPECT_EQ(watch.message().find("have delivered 5 J") != std::string::npos, given > 1) << watch.message();
   }
 }
 

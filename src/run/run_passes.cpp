@@ -398,7 +398,7 @@ class Passes {
     if (out_.of_motion || !coarse_) return "";
     const std::vector<double> horizons = force_horizons(system_, coarse_->forces(), fine_->forces(), share_, settings_.tolerance);
     const double horizon = *std::min_element(horizons.begin(), horizons.end());
-    return horizon > 0 && horizon < last_.t ? fmt::format("; up to t = {:.4g} s all are within it", horizon) : "";
+    return horizon > 0 && horizon < last_.t ? fmt::format("; up to t = {:.4g} s all are within the tolerance", horizon) : "";
   }
 
   // Whether the joint's largest error is that of its couple rather than of its force.
@@ -408,9 +408,9 @@ class Passes {
   }
 
   std::string why_not_finer() const {
-    if (last_.sliding_load < 0) return "; finer passes meet the rounding of the numbers";
+    if (last_.sliding_load < 0) return "; finer passes are limited by roundoff";
     const BasicLoadData<S>& held = system_.loads[static_cast<std::size_t>(last_.sliding_load)];
-    return fmt::format("; {} {} switches without rest where its expression jumps, it is held there, and what it lags behind finer passes make hardly smaller", held.applied ? "force" : "motor", held.name);
+    return fmt::format("; {} {} keeps switching where its expression jumps and is held there, with a lag that finer passes hardly reduce", held.applied ? "force" : "motor", held.name);
   }
 
   std::string missed_message(const BasicJointData<S>& worst) const {

@@ -32,7 +32,7 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
     out.bearings = bearing_summaries(model, out);
     std::vector<std::string> limits = limit_notes(start.system, start.state, model.simulate, out, *recorder);
     if (!limits.empty() && (out.outcome == Outcome::kEnergyOpen || out.outcome == Outcome::kFailed)) {  // the cause matters more than what the end looked like
-      out.message = limits.front() + ". Behind that: " + out.message;
+      out.message = limits.front() + ". What followed: " + out.message;
       limits.erase(limits.begin());
     }
     out.notes.insert(out.notes.begin(), limits.begin(), limits.end());

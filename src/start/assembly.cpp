@@ -132,7 +132,7 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
     if (lacks.empty()) lacks = length_or_angle(left[j], size);
     names += (names.empty() ? "" : ", ") + system.joints[j].name;
   }
-  return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open all others close, and it lacks about {}", names, lacks);
+  return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open, all others close, leaving a gap of about {}", names, lacks);
 }
 
 // Takes all bodies out of `hold`. Returns the names of the coordinates that were in it.
@@ -157,7 +157,7 @@ bool close_beside_holds(const Model& model, const System& system, const std::vec
   const double size = mechanism_size(system, q);
   for (std::size_t j = 0; j < after.size(); ++j)
     if (!open[j] && !is_closed(after[j], size)) return false;
-  notes.push_back("what is held leaves loops open by a little, and gives way: " + held_that_moved(model, q, trial, 0, 0));
+  notes.push_back("held coordinates leave loops slightly open, and are adjusted: " + held_that_moved(model, q, trial, 0, 0));
   q = std::move(trial);
   return true;
 }
@@ -215,7 +215,7 @@ void leave_contacts_apart(const Model& model, const System& system, const Vecs& 
   for (const std::vector<std::size_t>& choice : choices) {
     Vecs trial = stated;
     if (!closes_without(model, system, open, choice, trial) || !all_within_stops(system, trial)) continue;
-    notes.push_back(fmt::format("bodies that touch in {} start apart: closed, a joint would be beyond its stop", names_of_joints(system, {choice.begin(), choice.end()})));
+    notes.push_back(fmt::format("bodies that touch in {} start apart: closing the contact would take a joint beyond its stop", names_of_joints(system, {choice.begin(), choice.end()})));
     open = with_opened(std::move(open), choice);
     q = std::move(trial);
     return;
@@ -226,12 +226,12 @@ void leave_contacts_apart(const Model& model, const System& system, const Vecs& 
 // in the middle of their play.
 std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
   if (const std::string apart = contacts_that_may_stand_apart(model, system, q, open); !apart.empty())
-    return fmt::format("If its bodies are meant to start apart ({}), everything else closes: try start = \"raw\", which closes no contact.", apart);
+    return fmt::format("Everything else closes if bodies may start apart ({}): if that is meant, try start = \"raw\", which closes no contact.", apart);
   if (const std::vector<std::string> held = let_go(model); !held.empty()) {
     Vecs trial = q;
     PositionSearch(model, system, open).run(trial);
     if (all_closed(misfits(system, trial), open, mechanism_size(system, q))) {
-      return fmt::format("Without what is held ({}) everything closes: try {}", fmt::join(held, ", "), only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
+      return fmt::format("Without the held coordinates ({}) everything closes: try {}", fmt::join(held, ", "), only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
     }
   }
   if (const std::string loose = names_of_joints_in_play(system); !loose.empty()) return "Assembly puts joints in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
@@ -266,12 +266,12 @@ void demand_closed(const Model& model, const System& system, Vecs& q, const std:
   for (const std::size_t j : misfitting)
     notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0], left[j][1],
                                 system.joints[j].servo < 0 ? "it preloads the joint"
-                                                           : "what the motor asks for at t = 0 differs by that from where its joint is held, or from where its loop closes. The start lets bodies give way until all forces are in balance, so that a held angle starts near the one that the motor asks for"));
+                                                           : "the motor's target at t = 0 differs by that much from where its joint is held, or from where its loop closes. The start lets bodies move until all forces balance, so a held angle starts near the motor's target"));
   if (broken.empty()) return;
   std::string list;
   for (std::size_t i = 0; i < broken.size() && i < kMostListed; ++i) {
     const JointData& joint = system.joints[broken[i]];
-    list += joint.servo >= 0 ? fmt::format("\n  motor {} asks for a position that its joint is {} away from", joint.name, length_or_angle(left[broken[i]], size))
+    list += joint.servo >= 0 ? fmt::format("\n  motor {} has a target that is {} away from the position of its joint", joint.name, length_or_angle(left[broken[i]], size))
                              : fmt::format("\n  joint {} ({}) stays open by {}", joint.name, joint.type, length_or_angle(left[broken[i]], size));
   }
   if (broken.size() > kMostListed) list += fmt::format("\n  and {} more", broken.size() - kMostListed);
@@ -299,7 +299,7 @@ void demand_within_stops(const JointData& joint, double at, const StopBreach& br
 void demand_reach(const JointData& joint, const Belt& belt, const S::Vec& z) {
   const double apart = std::hypot(z[0], z[1]), least = std::abs(belt.w());
   if (apart > least) return;
-  throw AssemblyError(fmt::format("joint {}: its discs are {:.4g} m apart, and the belt has no way between them: that takes more than {:.4g} m.\n  Try smaller radii, other sides, or markers further apart.", joint.name, apart, least));
+  throw AssemblyError(fmt::format("joint {}: its discs are {:.4g} m apart, and the belt cannot run between them: that takes more than {:.4g} m.\n  Try smaller radii, other sides, or markers further apart.", joint.name, apart, least));
 }
 
 // Bodies deep inside each other at a contact are on its wrong side, and its forces would be meaningless.

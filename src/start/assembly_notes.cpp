@@ -104,13 +104,13 @@ void note_moved_bodies(const Model& model, const Vecs& guess, const Vecs& q, std
     const double moved = (q[i] - guess[i]).head<2>().norm();
     const double size = std::max(extent, furthest_marker(body));
     if (body.position && size > 0 && moved > size)
-      notes.push_back(fmt::format("body {}: assembly moved it by {:.3g} m from its stated position, further than the stated positions are apart; if that was not meant, look at its markers and those that it is joined to: is a unit missing?", body.name, moved));
+      notes.push_back(fmt::format("body {}: assembly moved it by {:.3g} m from its stated position, more than the extent of the stated positions; if that was not meant, look at its markers and those that it is joined to: is a unit missing?", body.name, moved));
   }
 }
 
 void note_changed_velocities(const Model& model, const System& system, const Vecs& v, std::vector<std::string>& notes) {
   const std::string loose = names_of_joints_in_play(system);
-  const std::string why = loose.empty() ? "joints or motors ask for it" : fmt::format("joints or motors ask for it, and those with play ({}) start with their parts at rest in each other; start = \"raw\" keeps what is stated", loose);
+  const std::string why = loose.empty() ? "joints or motors require it" : fmt::format("joints or motors require it, and the parts of joints with play ({}) start at rest relative to each other; start = \"raw\" keeps the stated velocities", loose);
   const auto differ = [](double change, double before, double after) { return change > kOtherVelocity * std::max(before, after); };
   constexpr double kNothing = 1e-9;  // as a fraction of the stated value: smaller values are roundoff and written as 0
   const auto plain = [](double x, double stated) { return std::abs(x) < kNothing * std::abs(stated) ? 0 : x; };
@@ -156,7 +156,7 @@ void note_unconnected_bodies(const System& system, std::vector<std::string>& not
   for (const LoadData& load : system.loads) see_both(load.at);
   for (const auto& force : system.applied) see(force.body);
   for (std::size_t b = 0; b < connected.size() && connected.size() > 1; ++b)
-    if (!connected[b]) notes.push_back(fmt::format("body {} has no joint, spring or force: it moves by itself", system.bodies[b].name));
+    if (!connected[b]) notes.push_back(fmt::format("body {} has no joint, spring or force: it moves independently of the others", system.bodies[b].name));
 }
 
 void note_missing_units(const Model& model, double size, std::vector<std::string>& notes) {

@@ -168,7 +168,7 @@ TEST(Assembly, ALoopThatCannotCloseIsNamed) {
     const std::string names = text.substr(loop, text.find('\n', loop) - loop);
     for (const char* joint : {"O2", "A", "B", "O4"}) EXPECT_NE(names.find(joint), std::string::npos) << text;
     EXPECT_NE(text.find("stays open by "), std::string::npos) << text;
-    EXPECT_NE(text.find("it lacks about 0.6 m"), std::string::npos) << text;  // 6 - (1 + 0.4 + 4)
+    EXPECT_NE(text.find("leaving a gap of about 0.6 m"), std::string::npos) << text;  // 6 - (1 + 0.4 + 4)
   }
 }
 

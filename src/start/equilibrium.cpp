@@ -181,7 +181,7 @@ class Creep {
       return true;
     };
     for (int since = 0; since < kSwings; ++since, ++steps) {
-      if (!stepper.step(longest)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
+      if (!stepper.step(longest)) throw AssemblyError("start = \"settled\": no position of rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
       state = stepper.state();
       const double unrest = largest_unrest(fluid_, state, rate_, body_);
       if (unrest <= kAtRest * largest_load(fluid_, state)) return true;
@@ -191,7 +191,7 @@ class Creep {
       }
       if (state.t > 0.99 * longest) {
         if (rests()) return true;
-        throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
+        throw AssemblyError(fmt::format("start = \"settled\": body {} does not come to rest: nothing stops it, or a load keeps driving it.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
       }
       if (unrest > 0.5 * halved && state.t <= kLonger * mark) continue;
       halved = std::min(unrest, halved);
@@ -238,7 +238,7 @@ State stable_rest(Creep& creep, const State& at_rest, std::vector<std::string>& 
   State again = creep.go(nudged);
   const Move move = largest_move(at_rest.q, again.q);
   if (move.way < kLeaves * size && move.turn < kLeaves) return at_rest;
-  notes.push_back("settled: the first equilibrium is not stable: touched, the mechanism leaves it and comes to rest " + in_words(move) + " away, where it starts");
+  notes.push_back("settled: the first equilibrium is unstable: when nudged, the mechanism leaves it and comes to rest " + in_words(move) + " away, where it starts");
   return again;
 }
 
@@ -307,7 +307,7 @@ Assembly start_in_equilibrium(const Model& model, bool smooth) {
   out.notes.push_back("settled: the mechanism came to rest " + in_words(largest_move(assembled, state.q)) + " from where it was assembled");
   out.notes.insert(out.notes.end(), notes.begin(), notes.end());
   if (const auto force = unbalanced(out))
-    out.notes.push_back(fmt::format("settled: what is held, or what depends on rates of loads, is not in equilibrium: {:.3g} N accelerate body {} from the start", force->size, model.bodies[force->body].name));
+    out.notes.push_back(fmt::format("settled: held coordinates, or forces that depend on rates, are not in equilibrium: {:.3g} N accelerate body {} from the start", force->size, model.bodies[force->body].name));
   return out;
 }
 

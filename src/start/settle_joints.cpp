@@ -28,7 +28,7 @@ constexpr double kBalanced = 1e-6;                    // as a fraction of the la
 constexpr double kSmallCouple = 0.05;                 // as a fraction of the largest force at the largest radius of gyration: growth of couples below this is not checked
 constexpr double kEntirely = 0.99;                    // share of its slow motion from which a soft joint counts as following the motion
 
-constexpr const char* kNotSettled = "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated errors do not include this";
+constexpr const char* kNotSettled = "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start from the same state, so the stated errors do not include this";
 
 // Half a step of a rough integration, but at least the time in which the slowest joint vibrates, or `longest` if that is shorter: over
 // less, rates and accelerations of gaps are roundoff. Rounded to a binary fraction of the duration, so that it does not change with every
@@ -131,7 +131,7 @@ void note_slow_joints(const BasicSystem<S>& system, const std::vector<std::size_
     names += fmt::format("{}{} {}", i == 0 ? "" : ", ", joint.servo < 0 ? "joint" : "motor", joint.name);
   }
   if (slow.size() > kNamed) names += fmt::format(" and {} more", slow.size() - kNamed);
-  notes.push_back(fmt::format("{}: damping lets {} follow {} load within {:.3g} s only, and at the start the load changes sooner; {} at the deflection that carries the load, and what comes then is motion, not an error of the start",
+  notes.push_back(fmt::format("{}: damping lets {} follow {} load only within {:.3g} s, and at the start the load changes faster; {} at the deflection that carries the load, and the movement that follows is physical, not an error of the start",
                               names, slow.size() == 1 ? "it" : "them", slow.size() == 1 ? "its" : "their", longest, slow.size() == 1 ? "it begins" : "they begin"));
 }
 

@@ -29,7 +29,7 @@ namespace {
 void demand_no_states(const System& system) {
   for (const JointData& joint : system.joints)
     if (!joint.ideal && !joint.law.feeds() && joint.law.n_states() > 0)
-      throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not follow what its law remembers, such as a touch and its speed: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\" (in compare: --against relative), which keeps the joints of a tree ideal.", joint.name));
+      throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not integrate the states of its law, such as the approach speed of a contact: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\" (in compare: --against relative), which keeps the joints of a tree ideal.", joint.name));
 }
 
 // Ideal joints carry no preload: their loops are closed exactly. Joints that stay force laws begin with the deflections that carry their loads.
@@ -47,7 +47,7 @@ Assembly ideal_start(Model model, double known_span) {
   for (int j = 0; j < system.n_joints(); ++j)
     if (!system.joints[j].ideal && !system.joints[j].law.engaged_stiffness().isZero(0)) laws.push_back(j);
   if (laws.empty()) return assembly;
-  assembly.notes.push_back("joints that stay force laws beside the ideal ones: " + names_of_joints(system, laws) + "; stiff or strongly damped ones take many steps with these equations");
+  assembly.notes.push_back("joints that remain force laws among ideal joints: " + names_of_joints(system, laws) + "; stiff or strongly damped ones take many steps with these equations");
   if (!loaded) return assembly;
   start_forces(assembly.system, true, assembly.state);
   settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
@@ -77,8 +77,8 @@ void note_held_that_moved(const Model& model, const System& system, const Vecs& 
   const std::string moved = held_that_moved(model, assembled, state.q, kFar, kFar * characteristic_length(system, assembled));
   if (moved.empty()) return;
   const bool at_rest = std::none_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.velocity.value_or(Vec2{}) != Vec2{} || body.spin.value_or(0) != 0; });
-  notes.push_back("the joints give way to the loads of t = 0, and what is held while they are assembled goes with them: " + moved +
-                  (at_rest ? "; start = \"settled\" leaves it where it is and says what is not in equilibrium there" : "; start = \"unloaded\" leaves it where it is"));
+  notes.push_back("the joints deflect under the loads of t = 0, and coordinates held during assembly move with them: " + moved +
+                  (at_rest ? "; start = \"settled\" leaves them in place and reports what is not in equilibrium there" : "; start = \"unloaded\" leaves them in place"));
 }
 
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
@@ -91,7 +91,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);
   if (const std::string loose = model.simulate.start == Start::kAssembled ? names_of_joints_in_play(assembly.system, assembly.state) : ""; !loose.empty())
-    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike the sides of it first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
+    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike its sides first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
   if (!loaded || assembly.system.joints.empty()) return assembly;
   const double duration = model.simulate.duration;
   if (unloaded) assembly.system = settle_with_stiction(std::move(assembly.system), *unloaded, duration, known_span, assembly);
@@ -116,7 +116,7 @@ std::optional<Assembly> start_at_rest(Model model) {
 std::optional<Assembly> smooth_rest(const Model& model) {
   try {
     Assembly assembly = start_in_equilibrium(model, true);
-    assembly.notes.push_back("settled: no way to rest was found with friction; it starts where it rests without");
+    assembly.notes.push_back("settled: no position of rest was found with friction; the mechanism starts where it rests without friction");
     return assembly;
   } catch (const AssemblyError&) {  // the caller reports why the run's own start failed
     return std::nullopt;
@@ -163,7 +163,7 @@ void note_conflicting_motors(const System& system, const Vecs& q, std::vector<st
   if (servos < 2 || system.bodies.size() > kMostBodies) return;
   const CheckMobility counts = check_mobility(system, q).counts;
   if (counts.rank < 0 || counts.freedoms - counts.rank - counts.mobility_driven >= servos) return;
-  notes.push_back(fmt::format("motors {} drive a mechanism with {} of freedom: what they disagree in deflects the joints, and the largest forces may be those of that; a torque in place of all speeds and positions but {} leaves the others free",
+  notes.push_back(fmt::format("motors {} drive a mechanism with {} of freedom: the differences between their targets deflect the joints, and may cause the largest forces; prescribe a speed or position for only {} of them, and a torque for the others",
                               names, counts.mobility == 1 ? "one degree" : fmt::format("{} degrees", counts.mobility), counts.mobility == 1 ? "one" : std::to_string(counts.mobility)));
 }
 
@@ -173,7 +173,7 @@ Assembly start_as_asked(const Model& model, double known_span) {
     const System& system = assembly.system;
     note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
     for (const JointData& joint : system.joints)
-      if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.depends_on_reaction_alone()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations, whatever its radial_force says");
+      if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.depends_on_reaction_alone()) assembly.notes.push_back("joint " + joint.name + ": its teeth do not push the bodies apart in these equations, whatever its radial_force says");
     return assembly;
   }
   if (model.simulate.start == Start::kSettled) return settled_start(model);

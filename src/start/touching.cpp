@@ -186,7 +186,7 @@ void press_touching_surfaces(Assembly& assembly) {
   if (idle.empty()) return;
   std::string note = "surfaces that touch at the start without pressing on each other: " + names_of_joints(system, idle);
   if (std::any_of(idle.begin(), idle.end(), [&system](int j) { return system.joints[static_cast<std::size_t>(j)].type != "cam"; }))
-    note += "; if one was to press, it may be the other side of its edge (the first marker's axis turned by 180 deg: it presses along +y)";
+    note += "; if one of them should press, the other side of its edge may be meant (the first marker's axis turned by 180 deg: it presses along +y)";
   assembly.notes.push_back(std::move(note));
 }
 

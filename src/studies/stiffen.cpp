@@ -122,7 +122,7 @@ class Procedure {
     std::string names;
     for (const Motor& motor : model_.motors)
       if (motor.kind != MotorKind::kEffort) names += (names.empty() ? "" : ", ") + motor.name;
-    if (!names.empty()) out_.notes.push_back("servos are not stiffened (" + names + "): how far they give way is in the limit. With ideal joints they would follow exactly");
+    if (!names.empty()) out_.notes.push_back("servos are not stiffened (" + names + "): the limit includes their deflection. With ideal joints they would follow exactly");
   }
 
   // If no joint has a stiffness that may be raised, a comparison would be pointless.
@@ -375,7 +375,7 @@ class Procedure {
       out_.reason += fmt::format("; the change falls as 1/stiffness: {:.0e} N/m is within {:.1g} of the limit, and the extrapolated limit below is closer", last.stiffness, last.change / (kTenfold - 1));
     else if (singular_) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
     else if (const std::string stuck = stuck_at_end(); !stuck.empty())
-      out_.reason += fmt::format("; friction holds {} at the end, and what is carried by joints that stick depends on how they came to rest: friction = \"none\" has one limit", stuck);
+      out_.reason += fmt::format("; friction holds {} at the end, and the load of joints that stick depends on how they came to rest: with friction = \"none\" the limit is unique", stuck);
     else if (changes_as_before(out_.steps.size() - 1)) out_.reason += "; the change no longer falls: check for vibration, impact or slack, or ask for fewer digits";
   }
 

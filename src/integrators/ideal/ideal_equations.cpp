@@ -299,7 +299,7 @@ void IdealEquations::measure_violation() {
 std::string IdealEquations::violation_text(const std::string& method) const {
   std::string text = fmt::format("{}: the constraints of ideal joints are violated by at most {:.1e} m and {:.1e} rad", method, violation_[0], violation_[1]);
   if (equations_ == Equations::kPenalty)
-    text += fmt::format("; the stated force errors are those of the integration, to which the penalties add of the order of 1/penalty, {:.0e} of a force", 1 / penalty_.factor);
+    text += fmt::format("; the stated force errors are those of the integration only; the penalties add an error of the order of 1/penalty, {:.0e} of a force", 1 / penalty_.factor);
   return text;
 }
 

@@ -24,8 +24,8 @@ constexpr double kLeastCrossing = 1e-8;  // lower limit on such steps, as a frac
 // Rigid joints cannot follow a target that jumps.
 std::string jump_text(const TargetJump& jump, const JointData& joint) {
   const bool turns = joint.driven == S::kTurn;
-  const std::string change = jump.position != 0 ? fmt::format("jump by {:.4g} {}", jump.position, turns ? "rad" : "m") : fmt::format("change its speed by {:.4g} {} at once", jump.rate, turns ? "rad/s" : "m/s");
-  return fmt::format("{} {} is to {} at t = {:.9g} s, which would take an infinite force with ideal joints; let it change over a time (smoothstep), or take equations = \"newtonian\", whose joints and motors give way",
+  const std::string change = jump.position != 0 ? fmt::format("jump by {:.4g} {}", jump.position, turns ? "rad" : "m") : fmt::format("change its speed by {:.4g} {} instantly", jump.rate, turns ? "rad/s" : "m/s");
+  return fmt::format("{} {} is to {} at t = {:.9g} s, which would take an infinite force with ideal joints; spread the change over some time (smoothstep), or use equations = \"newtonian\", whose joints and motors are compliant",
                      joint.servo >= 0 ? "motor" : "joint", joint.name, change, jump.t);
 }
 
@@ -98,7 +98,7 @@ bool IdealStepper::step(double t_end) {
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
-      if (jump_ahead) failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" hold a motor or force where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump_)]));
+      if (jump_ahead) failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" can hold a motor or force at the point where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump_)]));
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();

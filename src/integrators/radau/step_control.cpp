@@ -34,7 +34,7 @@ template <class S>
 std::string undefined_edge(const BasicJointData<S>& joint) {
   const std::optional<double> x = joint.edge ? joint.edge->undefined_at() : std::nullopt;
   if (!x) return {};
-  return fmt::format(", the height of whose edge is not a number at x = {:.4g} m: if what runs on it has come there, try if(..., ..., ...) to continue it beyond its stretch", *x);
+  return fmt::format(", whose edge has no finite height at x = {:.4g} m: if the contact has come there, try if(..., ..., ...) to continue the height beyond its range", *x);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ std::string no_step_message(const BasicSystem<S>& system, double t, double h, st
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
   std::string text = fmt::format("the step size became too small at t = {:.9g} s, step {:.3g} s", t, h);
   if (!event.empty()) text += "; " + event;
-  if (event.starts_with("kink or jump")) text += ", again and again: a force that jumps with a place drives its bodies back and forth across it; try one that is 0 there (with a damper of the relative speed, or a ramp by smoothstep)";
+  if (event.starts_with("kink or jump")) text += ", again and again: a force that jumps at some position drives its bodies back and forth across it; try a force that is 0 there (a damper on the relative speed, or a ramp by smoothstep)";
   for (std::size_t i = 0; i < std::min(kNamed, residuals.size()); ++i) {
     const BasicJointData<S>& joint = system.joints[residuals[i].second];
     text += fmt::format("; joint {} (residual {:.3g} m/s^2){}", joint.name, residuals[i].first, undefined_edge(joint));

@@ -318,7 +318,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   TableSpec spec = joint_spec(reading, entry.value, type, law, friction_word, stops == nullptr ? "" : stops_word, detent == nullptr ? "" : detent_word);
   do_without(*law, defaults, spec);
   const Record record = reading.records.read(spec, entry.value, entry.key_spot, path, kind);
-  if (!record.waiting.empty()) reading.model.notes.push_back(fmt::format("joint {}: {} {} of other laws than the stated, and without effect", entry.key, fmt::join(record.waiting, ", "), record.waiting.size() == 1 ? "is a key" : "are keys"));
+  if (!record.waiting.empty()) reading.model.notes.push_back(fmt::format("joint {}: {} {} of other laws than the stated one, without effect", entry.key, fmt::join(record.waiting, ", "), record.waiting.size() == 1 ? "is a key" : "are keys"));
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;
@@ -334,7 +334,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   if (stops != nullptr) read_law(reading, *type, *stops, record, entry.value, defaults, joint, joint.stops);
   if (detent != nullptr) read_law(reading, *type, *detent, record, entry.value, defaults, joint, joint.detent);
   if (friction != nullptr && joint.ideal)
-    reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
+    reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not deflect, so the force that presses its surfaces together is not known",
                            "ideal = false, or no friction");
   if (joint.ideal && !record.states("friction") && default_friction(type, law, defaults) != nullptr)
     reading.model.notes.push_back("joint " + entry.key + ": it is ideal, and the friction of [defaults.joint] does not act in it");

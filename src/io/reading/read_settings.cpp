@@ -73,8 +73,8 @@ void check_start(ModelReading& reading, const Record& record) {
   const Equations equations = reading.model.simulate.equations;
   if (equations == Equations::kNewtonian || (start != Start::kSettled && start != Start::kSeated)) return;
   if (start == Start::kSeated && equations == Equations::kRelative) return;
-  if (start == Start::kSeated) return reading.complaints.add(record.spot("start"), "simulate.start", "\"seated\"", "with these equations play is not taken up", "equations = \"newtonian\" or \"relative\", or start = \"assembled\"");
-  reading.complaints.add(record.spot("start"), "simulate.start", "\"settled\"", "with these equations no mechanism is let come to rest", "equations = \"newtonian\", or start = \"assembled\"");
+  if (start == Start::kSeated) return reading.complaints.add(record.spot("start"), "simulate.start", "\"seated\"", "these equations cannot start with play taken up", "equations = \"newtonian\" or \"relative\", or start = \"assembled\"");
+  reading.complaints.add(record.spot("start"), "simulate.start", "\"settled\"", "these equations cannot bring a mechanism to rest", "equations = \"newtonian\", or start = \"assembled\"");
 }
 
 void read_simulate(ModelReading& reading) {

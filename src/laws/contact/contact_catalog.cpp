@@ -68,9 +68,9 @@ LawFault contact_fault(const LawSetting& at) {
   if (rubs && !(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
   if (at.number("static_friction") > 0 && !(at.number("friction_coefficient") > 0)) return {"friction_coefficient", "what sticks by static_friction rubs when it slips", "friction_coefficient, at most static_friction"};
   if (const double stuck = at.number("static_friction"); stuck > 0 && stuck < at.number("friction_coefficient"))
-    return {"static_friction", fmt::format("{:g} is below friction_coefficient, {:g}: what slips would be held more firmly than what rests", stuck, at.number("friction_coefficient")), "static_friction not below friction_coefficient"};
+    return {"static_friction", fmt::format("{:g} is below friction_coefficient, {:g}: surfaces would hold more firmly when slipping than at rest", stuck, at.number("friction_coefficient")), "static_friction not below friction_coefficient"};
   const double poisson = at.number("poisson_ratio");
-  if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
+  if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, the value of an incompressible material", poisson), "0.3 for metals"};
   const bool linear = kDamping.model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
   if (linear && !stated) return {"contact_model", "the linear model has no stiffness from elastic_modulus", "state contact_stiffness in N/m"};
   if (at.joint_type != "revolute" && !stated && !(at.number("pin_radius") > 0)) return {"pin_radius", "a point has no Hertzian stiffness", "a radius, or contact_stiffness"};

@@ -56,7 +56,7 @@ BladeSize blade_of(const LawSetting& at) {
 
 LawFault material_fault(const LawSetting& at) {
   const double poisson = at.number("poisson_ratio");
-  if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
+  if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, the value of an incompressible material", poisson), "0.3 for metals"};
   return {};
 }
 

@@ -69,7 +69,7 @@ double static_friction(const LawSetting& at) {
 
 LawFault friction_fault(const LawSetting& at) {
   if (const double stuck = static_friction(at); stuck < at.number("friction_coefficient"))
-    return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", stuck, at.number("friction_coefficient")),
+    return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: surfaces would hold more firmly when slipping than at rest", stuck, at.number("friction_coefficient")),
             "static_friction not below friction_coefficient"};
   if (at.joint_type != kCylinder && at.number("seal_area") > 0) return {"seal_area", "only cylinders have seals", "delete it; friction_preload is a constant load"};
   if (at.joint_type == kCylinder && at.number("guide_length") > 0) return {"guide_length", "the guide of a cylinder's rod carries no load: the force acts along it", "delete it"};

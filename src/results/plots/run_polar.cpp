@@ -59,7 +59,7 @@ double radial_clearance(const Trajectory& run, const std::string& path) {
 const JointWear& find_wear(const Trajectory& run, const LoadSummary& joint) {
   const auto found = std::find_if(run.wear.begin(), run.wear.end(), [&joint](const JointWear& one) { return one.joint == joint.name; });
   if (found != run.wear.end()) return *found;
-  throw PlotRequestError(fmt::format("joint \"{}\" tells no wear: only pins with law = \"clearance\" do.\n    Choose another joint; runs of older versions have no wear, so run their models again.", joint.name));
+  throw PlotRequestError(fmt::format("joint \"{}\" has no wear: only pins with law = \"clearance\" record it.\n    Choose another joint; runs of older versions have no wear, so run their models again.", joint.name));
 }
 
 // Sectors as arcs about the centre.
@@ -110,7 +110,7 @@ PolarPlot make_orbit_plot(const std::vector<PolarRun>& runs, const std::string& 
     const Trajectory& run = one.run->trajectory;
     find_pin(run, joint);
     if (!has_orbit(run, joint))
-      throw PlotRequestError(fmt::format("joint \"{}\" tells no orbit: only pins that springs do not hold do, such as those with law = \"clearance\".\n    Choose another joint; runs of older versions have no orbits, so run their models again.", joint));
+      throw PlotRequestError(fmt::format("joint \"{}\" has no orbit: only pins that are not held by springs record one, such as those with law = \"clearance\".\n    Choose another joint; runs of older versions have no orbits, so run their models again.", joint));
     const std::string path = "joint." + joint + ".", label = runs.size() == 1 ? "" : one.name;
     const auto column = [&](const char* name) { return values_of(run, find_column(run, path + name)); };
     const std::vector<double> x = column("pin_x"), y = column("pin_y");

@@ -66,7 +66,7 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceRecord
   }
   if (earliest != nullptr) out.growth.horizon = earliest->horizon;
   out.message = fmt::format(
-      "joint forces are promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and integrations with tolerances down to {:.1g} part before its end; "
+      "joint forces are promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and integrations with tolerances down to {:.1g} diverge from each other before its end; "
       "peaks, means and RMS after that are statistics",
       out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error, least.tolerance);
 }

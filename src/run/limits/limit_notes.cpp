@@ -124,11 +124,11 @@ std::string note(const System& system, const Finding& finding) {
   const double unit = angle ? 360 / kTurn : 1000;
   const char* unit_name = angle ? "deg" : "mm";
   std::string text = fmt::format("the mechanism came to its limit at t = {:.4g} s: {} can go no further than {:.6g} {}{}{}", finding.t, what, limit.value * unit, unit_name,
-                                 finding.alone ? "" : " while the other motors are where they were then", in_line(system, limit));
-  if (!finding.pushed) return text + fmt::format("; {} {} asks for more", servo ? "motor" : "what drives joint", drive.name);
-  text += fmt::format(". {} {} went on pushing: with {:.5g} {} at t = {:.4g} s, {:.3g} {} behind", servo ? "Motor" : "What drives joint", drive.name, peak.effort,
+                                 finding.alone ? "" : " with the other motors where they were at that time", in_line(system, limit));
+  if (!finding.pushed) return text + fmt::format("; {} {} commands more", servo ? "motor" : "the drive of joint", drive.name);
+  text += fmt::format(". {} {} kept pushing: with {:.5g} {} at t = {:.4g} s, {:.3g} {} behind its target", servo ? "Motor" : "The drive of joint", drive.name, peak.effort,
                       angle ? "N*m" : "N", peak.t, std::abs(peak.lag) * unit, unit_name);
-  if (finding.alone && finding.first && beyond > 0) text += fmt::format(", the joints having given way by {:.3g} {}", beyond * unit, unit_name);
+  if (finding.alone && finding.first && beyond > 0) text += fmt::format("; the deflection of the joints took it {:.3g} {} past the limit", beyond * unit, unit_name);
   return text;
 }
 

@@ -38,8 +38,8 @@ std::string note_on_torn_joint(const BasicSystem<S>& system, const BasicState<S>
     torn = &joint;
   }
   if (torn == nullptr) return "";
-  return fmt::format("joint {} is torn open by {:.2g} m, {:.0f} % of the mechanism's size, at t = {:.4g} s (its peak of {:.4g} N over its stiffness): no machine goes on so. Check the signs and units of what drives it, "
-                     "and whether it can move as it is asked to",
+  return fmt::format("joint {} is torn open by {:.2g} m, {:.0f} % of the mechanism's size, at t = {:.4g} s (its peak of {:.4g} N over its stiffness): no machine survives that. Check the signs and units of what drives it, "
+                     "and whether the mechanism can make the prescribed motion",
                      torn->name, farthest, 100 * farthest / size, torn->peak_time, torn->peak);
 }
 

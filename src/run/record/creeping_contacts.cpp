@@ -40,8 +40,8 @@ std::string note_on_creeping_contacts(const BasicSystem<S>& system, const BasicS
     if (creeps) names += (names.empty() ? "" : ", ") + joint.name;
   }
   if (names.empty()) return "";
-  return fmt::format("contacts that have not come to rest under their load at the end ({}): up to {:.2g} of their force is damping, which lets them follow it within {:.2g} s only, and what others share with them is on its way. "
-                     "A contact that is loaded slowly is damped as by an impact at least_approach_speed; with a larger one, or a restitution nearer to 1, it follows sooner",
+  return fmt::format("contacts that are still settling under their load at the end ({}): up to {:.2g} of their force is damping, which makes them take {:.2g} s to follow the load, and loads shared with other joints are still shifting. "
+                     "A slowly loaded contact is damped as in an impact at least_approach_speed; with a larger one, or a restitution nearer to 1, it settles sooner",
                      names, largest_share, slowest);
 }
 

@@ -33,7 +33,7 @@ class BasicEdgeOverruns {
         if (z[0] - edge.roller_radius() >= edge.from() && z[0] + edge.roller_radius() <= edge.to()) return false;  // it cannot touch farther away
         const double x = edge.nearest({z[0], z[1]});
         if (x >= edge.from() && x <= edge.to()) return false;
-        notes_.push_back(fmt::format("joint {}: from t = {:.4g} s on it runs beyond its edge ({} = {:.4g} m), where nobody has looked for corners, and for hollows that the roller does not fit into: let from and to go as far as it runs",
+        notes_.push_back(fmt::format("joint {}: from t = {:.4g} s on it runs beyond its edge ({} = {:.4g} m), where the edge has not been checked for corners, or for hollows that the roller does not fit into: extend from and to as far as it runs",
                                      joint.name, state.t, x < edge.from() ? "from" : "to", x < edge.from() ? edge.from() : edge.to()));
         return true;
       });

@@ -118,7 +118,7 @@ void BasicForceRecorder<S>::fill(Trajectory& out) {
     }
     if (!heat_.empty()) s.heat = heat_[j];
     if (s.peak == 0 && joint.law.starts_free() && !joint.law.engaged_stiffness().isZero(0) && loads_->span() > 0)
-      out.notes.push_back(fmt::format("joint {} ({}) carries nothing from start to end: it is slack, or apart, all the time; if that was not meant, look at the signs and sides of what loads it", joint.name, joint.type));
+      out.notes.push_back(fmt::format("joint {} ({}) carries no load from start to end: it is slack, or out of contact, all the time; if that was not meant, check the signs and sides of its loads", joint.name, joint.type));
     out.joints.push_back(s);
   }
   if (what_ != Recorded::kForces) {

@@ -37,7 +37,7 @@ class BasicLostEquilibria {
     std::vector<std::string> notes;
     for (const Joint& joint : joints_)
       if (std::isfinite(joint.lost_at))
-        notes.push_back(fmt::format("joint {} lost its equilibrium at t = {:.5g} s (its blade would snap, or is bent or stretched too far): its force from there on is that of small deflections and no blade's",
+        notes.push_back(fmt::format("joint {} lost its equilibrium at t = {:.5g} s (its blade would snap, or is bent or stretched too far): from then on its force is that of small deflections, not the blade's own",
                                     system_.joints[joint.index].name, joint.lost_at));
     return notes;
   }

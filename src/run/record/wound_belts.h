@@ -37,7 +37,7 @@ class BasicWoundBelts {
     std::vector<std::string> notes;
     for (const Wound& one : belts_)
       if (one.shortest < kEnd * std::max(std::abs(one.belt.radius_first), std::abs(one.belt.radius_second)))
-        notes.push_back(fmt::format("joint {}: its free run is down to {:.3g} m at t = {:.4g} s, where its end comes to its disc; a real one is stopped before, and what follows is a motion past the disc",
+        notes.push_back(fmt::format("joint {}: its free run is down to {:.3g} m at t = {:.4g} s, where its end has reached its disc; a real belt would have stopped there, and the motion after that runs past the disc",
                                     system_.joints[static_cast<std::size_t>(one.joint)].name, one.shortest, one.at));
     return notes;
   }
