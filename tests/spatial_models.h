@@ -23,7 +23,7 @@ inline BasicBodyData<Spatial> spatial_body(const std::string& name, double mass,
   return b;
 }
 
-/// What a joint holds: stiffness and damping of the positions [N/m, N*s/m], and of a hinge's tilts [N*m/rad, N*m*s/rad].
+/// What a joint resists with: stiffness and damping of the positions [N/m, N*s/m], and of a hinge's tilts [N*m/rad, N*m*s/rad].
 struct SpatialStiffness {
   double k = 0, c = 0, k_turn = 0, c_turn = 0;
 };

@@ -58,13 +58,13 @@ TEST(Starts, MeshesOfTablesInSeriesStartWithTheirLoad) {
 }
 
 // m a = 1.5 kg r w^2 (1 + r/l) and the rod's share, whatever rubs in the slide: one turn later the bearing carries the same. The bristles' dampers, at the rates
-// that the slide soon reaches, are no part of the friction at its start; they used to make up 1 %.
+// that the slide soon reaches, are no part of the friction at its start; they made 1 % of its force.
 TEST(Starts, BristlesAtADeadCentreCarryNoMoreThanTheirFriction) {
   const Trajectory run = completed(test_model("slide_with_bristles_at_dead_centre"));
   for (std::size_t row = 0; row < 4; ++row) EXPECT_NEAR(value(run, row, "joint.O.on_crank.fx[world]"), value(run, row + 360, "joint.O.on_crank.fx[world]"), 1) << row;
 }
 
-// The wheel rolls on its rack. Its place in the plane changes the roundoff of its gaps, which used to ring with up to 1e-4 of its force.
+// The wheel rolls on its rack. Its position in the plane changes the roundoff of its gaps, which used to ring with up to 1e-4 of its force.
 TEST(Starts, AWheelOnARackStartsAlikeWhereverItStands) {
   const Trajectory here = completed(test_model("eccentric_wheel_on_a_rack")), there = completed(test_model("eccentric_wheel_on_a_rack", {"parameters.x=\"3 m\"", "parameters.y=\"-2 m\""}));
   for (std::size_t row = 0; row < here.n_rows(); ++row)
@@ -117,8 +117,8 @@ TEST(Starts, AMechanismAtRestStaysAtRestWhereNoSlowMotionIsFound) {
   EXPECT_NEAR(run.joints.back().peak, 7e6 * kPi / 4 * 0.063 * 0.063, 1);
 }
 
-// The linear film used in the search for a start neither ends at the bush nor stiffens there: a state whose load the real film lacks is no start. The largest
-// force is that of the motion, 2.9 to 3.3 kN; it was up to 124 kN at t = 0, with the pin four clearances off.
+// The start is sought with a linearised film, which neither ends at the bush nor stiffens there: a start whose load the film itself does not carry is rejected.
+// The largest force is that of the motion, 2.9 to 3.3 kN; it was up to 124 kN at t = 0, with the pin four clearances off.
 TEST(Starts, APinInOilStartsInItsBush) {
   for (const double angle : {30.0, 60.0, 90.0, 150.0})
     for (const char* friction : {"stribeck", "none"}) {

@@ -69,7 +69,7 @@ TEST(EdgeContact, OfAFlatEdgeIsThatOfAStraightOne) {
   EXPECT_NEAR(value(curved, end, "joint.J.contact_x"), value(curved, end, "body.disc.x"), 1e-9);
 }
 
-// A disc rolls down a fixed cylinder of 0.4 m from 10 degrees beside its top: energy gives its speed, the speed the forces, and these the angle at which it
+// A disc rolls down a fixed cylinder of 0.4 m from 10 degrees off its top: energy gives its speed, the speed the forces, and these the angle at which it
 // begins to slip.
 void expect_rolling_down_a_cylinder(const std::string& surface) {
   constexpr double kRadius = 0.45, kFirst = 0.17453292519943295, kMass = 2;
