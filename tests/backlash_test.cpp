@@ -18,7 +18,7 @@ using reference::drift;
 
 constexpr double kR1 = 0.1, kR2 = 0.2, kI1 = 0.02, kI2 = 0.3, kPlay = 2e-3, kRestitution = 0.6;
 
-// Two gears on pins that are much stiffer than their teeth, so that these alone make the impacts; the first one spins at 10 rad/s, the second one rests.
+// Two gears on pins that are much stiffer than their teeth, so that only the teeth make the impacts; the first gear spins at 10 rad/s, the second is at rest.
 Model gears(const std::string& more, const std::string& duration) {
   return parse_model(fmt::format(R"toml(
 format = 1
@@ -80,11 +80,11 @@ TEST(Backlash, GearsCrossTheirPlayBetweenImpacts) {
     slip *= kRestitution;
     EXPECT_NEAR(run.contacts[i + 1].t - run.contacts[i].t, kPlay / slip, 2e-3 * kPlay / slip) << i;
   }
-  // The flanks push both gears with one force: I1 w1 / r1 and I2 w2 / r2 change alike.
+  // The flanks push both gears with the same force: I1 w1 / r1 and I2 w2 / r2 change by the same amount.
   EXPECT_NEAR(kI1 * (10 - run.end.v[0][2]) / kR1, -kI2 * run.end.v[1][2] / kR2, 1e-6);
 }
 
-// A torque on the first gear, a larger one held by a spring on the second: the front flank carries T1 / r1.
+// A torque on the first gear, and a larger one, which a spring holds, on the second: the front flank carries T1 / r1.
 TEST(Backlash, TheFlankCarriesTheTorqueThatIsPassedOn) {
   Model model = gears(R"toml(
 [motor.drive]

@@ -1,4 +1,4 @@
-// Sweeps of the collection: peaks of variants that are not checked, most of them in batches, against runs with a smaller tolerance.
+// Sweeps of the collection: peaks of unchecked variants, most of them in batches, against runs with a smaller tolerance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ Model collected(const std::string& name) {
   return model;
 }
 
-// Heavier by so much, and with a first joint as much stiffer.
+// Heavier by `factor`, and with a first joint stiffer by the same factor.
 Model heavier(Model model, double factor) {
   for (Body& body : model.bodies) body.mass *= factor;
   auto& stiffness = model.joints[0].law.values["stiffness"];

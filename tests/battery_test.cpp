@@ -31,12 +31,12 @@ TEST(RandomMechanisms, AreAFunctionOfSeedAndNumberAndNothingIsWrongWithThem) {
   EXPECT_THROW(random_mechanism(5, 0, {"perpetuum-mobile"}), std::invalid_argument);
 }
 
-// Dice are the same on every machine: 2^53 equally likely numbers of a counter.
-// The crank of this one ends 0.02 m from where the rocker would turn: no dyad joins them.
+// The crank of this mechanism ends 0.02 m from where the rocker would turn: no dyad joins them.
 TEST(RandomMechanisms, BeginAgainWhereTheNumbersLeaveNoPlace) {
   EXPECT_NE(random_mechanism(2, 48, {"clearance"}).text, "");
 }
 
+// Dice are the same on every machine: 2^53 equally likely numbers from a counter.
 TEST(RandomMechanisms, DrawTheirNumbersInOrder) {
   Dice dice(7, 3);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(dice.uniform(0, 1), uniform_number(7, 3, static_cast<std::uint64_t>(i)));
@@ -58,7 +58,7 @@ std::string description(const MeasuredRun& run) {
   return out.str();
 }
 
-// One of each kind without contacts, and without blades, whose forces take long. What the whole battery finds is in docs/battery.md.
+// One of each kind without contacts, and without blades, whose forces take long to compute. The findings of the whole battery are in docs/battery.md.
 TEST(BatterySlow, KeepsItsPromises) {
   std::vector<std::string> kinds;
   for (const MechanismKind& kind : mechanism_kinds())
@@ -91,7 +91,7 @@ std::vector<RandomMechanism> once_broken() {
   return models;
 }
 
-// Starts of redundant joints that diverged, passes that were alike where it mattered, steps that no tolerance shortened.
+// Starts of redundant joints that diverged, passes that were equal where it mattered, steps that no tolerance shortened.
 TEST(BatterySlow, ModelsThatOnceBrokeAPromiseKeepIt) {
   const std::vector<RandomMechanism> models = once_broken();
   EXPECT_GE(models.size(), 10u);

@@ -1,4 +1,4 @@
-// Bearings in whole runs: where loads settle, what begins to whirl, when play is used up.
+// Bearings in whole runs: where loads settle, when whirl begins, when play is used up.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ struct Rotor {
     }
     return low;
   }
-  // Ahead of the load, which points down, in the direction of the spin.
+  // Position of the centre: ahead of the load, which points down, in the direction of the spin.
   Eigen::Vector2d place() const {
     const double e = eccentricity(), attitude = std::atan(kPi * std::sqrt(1 - e * e) / (4 * e));
     return clearance * e * Eigen::Vector2d(std::sin(attitude), -std::cos(attitude));
@@ -109,7 +109,7 @@ TEST(OilFilm, ALoadedRotorSettlesWhereTheClosedFormSays) {
   }
 }
 
-// The speed at which a rigid rotor begins to whirl, between the roots of its linearised equations; runs on both sides grow and decay as those say.
+// The speed at which a rigid rotor begins to whirl, from the roots of its linearised equations; runs on either side grow and decay as the roots say.
 TEST(OilFilm, ARotorWhirlsAboveItsThresholdAndNotBelow) {
   Rotor rotor{20, 3000, 3000, 0.01};
   double low = 1000, high = 10000;
@@ -178,13 +178,13 @@ damping = 0
 play = "60 um"
 )toml";
 
-// It falls 30 micrometres, rebounds from a spring, and comes back: nothing is lost.
 // With the film's tangents at the first guess alone, its passes of order 9 took steps of 0.03 ms: 20,788 in all.
 TEST(OilFilm, BesideAWornPinTakesLongSteps) {
   const Trajectory run = reference::completed(reference::test_model("crank_press_with_film_and_play"));
   EXPECT_LT(run.counters.steps, 8000u);  // measured: 4930
 }
 
+// It falls 30 micrometres, rebounds from a spring, and comes back: nothing is lost.
 TEST(RollingBearing, FallsThroughItsPlayAndReboundsWhenItShould) {
   const Trajectory run = completed(parse_model(kLoose, "loose.toml"));
   const double h = 30e-6, k = 1e7, m = 2, speed = std::sqrt(2 * kStandardGravity * h), w = std::sqrt(k / m), touch = speed / kStandardGravity;
@@ -193,14 +193,14 @@ TEST(RollingBearing, FallsThroughItsPlayAndReboundsWhenItShould) {
   EXPECT_EQ(run.counters.events, run.counters.passes * (times(touch) + times(touch + contact)));
   const int y = run.column("body.ring.y");
   for (std::size_t i = 0; i < run.n_rows(); ++i) {
-    const double since = std::fmod(run.at(i, 0) + touch, contact + flight);  // the last let-go
+    const double since = std::fmod(run.at(i, 0) + touch, contact + flight);  // since the last release
     if (since < flight) EXPECT_NEAR(run.at(i, y), -0.5 * kStandardGravity * std::pow(since - touch, 2), 1e-9) << run.at(i, 0);
     else EXPECT_LT(run.at(i, y), -h + 1e-9);
   }
   EXPECT_LT(run.energy.drift, 1e-6 * run.energy.kinetic_peak);
 }
 
-// A start carries its load: the ring lies where the play is used up, and stays.
+// A start carries its load: the ring begins where the play is used up, and stays there.
 TEST(RollingBearing, StartsWhereItsLoadHolds) {
   for (const bool play : {true, false}) {
     Model model = parse_model(kLoose, "loose.toml");
@@ -219,7 +219,7 @@ TEST(RollingBearing, StartsWhereItsLoadHolds) {
   }
 }
 
-// A pin whose force was measured carries a load at the displacement of the table.
+// A pin with a measured force curve carries a load at the displacement of the table.
 TEST(Table, CarriesALoadAtTheDisplacementOfItsPoint) {
   Model model = parse_model(kLoose, "loose.toml");
   model.simulate.start = Start::kAssembled;

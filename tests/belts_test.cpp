@@ -31,17 +31,18 @@ TEST(Belts, AtwoodsMachineFallsAsItsInertiaSays) {
   }
 }
 
-// A motor that follows a speed over time: by theory/joints (4.7) the car rises by the integral of the speed, and while that is even the ropes carry the weights.
+// A motor that follows a speed over time: by theory/joints (4.7) the car rises by the integral of the speed; while the speed is constant the ropes carry the
+// weights.
 TEST(Belts, ALiftRisesAsFarAsItsSpeedGoes) {
   const Trajectory run = completed(mechanism("goods_lift"));
   const auto risen = [&run](double t) { return value(run, reference::row_at(run, t), "body.car.y") - value(run, 0, "body.car.y"); };
-  EXPECT_NEAR(risen(1), 1.25 * 2 * (0.125 - 0.03125), 2e-3);  // of a ramp of 2 s: 2 (x^3 - x^4/2) at x = 1/2; the ropes give way by m a/k
+  EXPECT_NEAR(risen(1), 1.25 * 2 * (0.125 - 0.03125), 2e-3);  // of a ramp of 2 s: 2 (x^3 - x^4/2) at x = 1/2; the ropes stretch by m a/k
   EXPECT_NEAR(risen(11), 10, 1e-4);
   const std::size_t begin = reference::row_at(run, 3), end = reference::row_at(run, 8), even = reference::row_at(run, 5);
   const auto since_start = [&run, even](const char* column) { return value(run, even, column) - value(run, 0, column); };
   const auto damped = [&](std::size_t row) { return 2e3 * -(value(run, row, "body.car.vy") + 0.5 * value(run, row, "body.sheave.spin")); };
   const double pull = since_start("joint.car_rope.tension") - (damped(even) - damped(0));
-  EXPECT_NEAR(risen(5), 5 - pull / 1.2e6 + 0.5 * since_start("motor.drive.effort") / 1e6, 1e-6);  // less what rope and servo give way by
+  EXPECT_NEAR(risen(5), 5 - pull / 1.2e6 + 0.5 * since_start("motor.drive.effort") / 1e6, 1e-6);  // less the deflections of rope and servo
   EXPECT_NEAR(value(run, even, "body.sheave.spin"), -2.5, 1e-3);
   const auto mean = [&](const char* column) {
     double sum = 0;
@@ -53,16 +54,16 @@ TEST(Belts, ALiftRisesAsFarAsItsSpeedGoes) {
   EXPECT_NEAR(mean("motor.drive.effort"), 0.5 * 200 * kStandardGravity, 1);
 }
 
-// The couple of both runs on a pulley is its radius times the difference of their tensions; angles go as the radii.
+// The couple of both runs on a pulley is its radius times the difference of their tensions; angles follow from the radii.
 TEST(Belts, ADriveCarriesItsMomentByTheDifferenceOfItsRuns) {
   const Trajectory run = completed(mechanism("belt_drive"));
   const std::size_t last = run.n_rows() - 1;
   const double difference = at_end(run, "joint.upper.tension") - at_end(run, "joint.lower.tension"), sum = at_end(run, "joint.upper.tension") + at_end(run, "joint.lower.tension");
-  EXPECT_NEAR(at_end(run, "body.shaft.spin"), 100, 0.01);  // where the lines of motor and fan meet; the run has 2e-4 of its way left
+  EXPECT_NEAR(at_end(run, "body.shaft.spin"), 100, 0.01);  // where the characteristics of motor and fan meet; at its end the run is 2e-4 short of it
   EXPECT_NEAR(at_end(run, "body.fan.spin") / at_end(run, "body.shaft.spin"), 1.0 / 3, 1e-6);
   EXPECT_NEAR(0.15 * difference, -at_end(run, "motor.air.effort"), 1e-2);
   EXPECT_NEAR(0.05 * difference, at_end(run, "motor.drive.effort"), 1e-2);
-  // 400 N each, less what the bearings give way by: every run is as much shorter as its ends are nearer.
+  // 400 N each, less the deflection of the bearings: each run of the belt is shorter by as much as its ends are nearer.
   const double nearer = 2 * (sum * std::cos(std::asin(0.2))) / 1e8, stiffness = 6e4 / std::sqrt(0.24);
   EXPECT_NEAR(sum, 800 - 2 * stiffness * nearer * std::cos(std::asin(0.2)), 1e-3 * 800);
   for (const char* joint : {"upper", "lower"}) {
@@ -132,8 +133,8 @@ between = ["drum.axle", "load.eye"]
 }
 constexpr const char* kRope = "first_radius = 0.2\nstretch = \"50 kg*9.80665 m/s^2/(2e6 N/m)\"\nstiffness = 2e6\ndamping = 2e3\n";
 
-// A drum that turns by one and a half turns lifts its load by that times its circumference. The rope carries m (g + r alpha), the motor r times that
-// and the drum's inertia.
+// A drum that turns by one and a half turns lifts its load by that times its circumference. The rope carries m (g + r alpha), the motor r times that and the
+// drum's inertia.
 TEST(Belts, ADrumHoistsItsLoad) {
   const Trajectory run = completed(parse_model(hoist(kRope), "hoist.toml"));
   const double r = 0.2, m = 50, inertia = 0.4;
@@ -169,7 +170,7 @@ TEST(Belts, SayWhatIsWrong) {
   says("first_radius = 9", "its discs are 8.002 m apart, and the belt cannot run between them: that takes more than 9 m");
 }
 
-// A weight on a rope that is exactly as long as its way is at rest under its load; on a longer one it falls.
+// A weight on a rope that is exactly as long as its path is at rest under its load; on a longer rope it falls.
 TEST(Ropes, ATautOneCarriesFromTheStart) {
   const auto hung = [](const std::string& length) {
     return simulate(parse_model(R"toml(format = 1
@@ -196,7 +197,7 @@ damping = 500
   EXPECT_GT(slack.joints[0].peak, 2 * weight);
 }
 
-// At rest, with everything in one line: the forces are those of the weights along it, and none rings. What a millisecond of swinging bends them by is 2.5 mN.
+// At rest, with everything in one line: each force is the weight's component along it, and none rings. A millisecond of swinging curves them by 2.5 mN.
 TEST(Ropes, ATautOneSwingsFromTheStartWithoutRinging) {
   const Trajectory run = completed(mechanism("rope_pendulum"));
   EXPECT_TRUE(run.notes.empty()) << run.notes.front();
@@ -269,11 +270,11 @@ damping = 100
 TEST(Belts, BetweenDiscsOfNearlyEqualRadiiCarryTheirPretension) {
   for (const double stretch : {2.2e-3, 9e-3, 25e-3}) {
     const Trajectory run = completed(alike_discs(stretch));
-    for (const char* tension : {"joint.left.tension", "joint.right.tension"}) EXPECT_NEAR(at_end(run, tension), 1e5 * stretch, 1e3 * stretch) << tension;  // the bearings give way by a hundredth of a millimetre
+    for (const char* tension : {"joint.left.tension", "joint.right.tension"}) EXPECT_NEAR(at_end(run, tension), 1e5 * stretch, 1e3 * stretch) << tension;  // the bearings deflect by a hundredth of a millimetre
   }
 }
 
-// A reel on nearly the radius of its post, whose cord stretches by a third of what a turn winds: it started slack, and snatched.
+// A reel of nearly the radius of its post, whose cord stretches by a third of what a turn winds: it used to start slack, and snatched.
 TEST(Belts, StartStretchedByWhatTheyCarry) {
   const Trajectory run = completed(reference::test_model("reel_beside_a_post"));
   EXPECT_NEAR(run.joints.at(1).peak, 2 / 49.9e-3, 0.05) << run.joints.at(1).name;
@@ -287,7 +288,7 @@ TEST(Belts, AreStretchedByAnyPartOfATurn) {
   }
 }
 
-// What a turn winds off the one disc and not onto the other says nothing about how far a belt may be stretched or slack.
+// The difference between what a turn winds off one disc and onto the other is no limit on how far a belt may be stretched or slack.
 TEST(Belts, OverDiscsOfNearlyEqualRadiiTransmitTorques) {
   const Trajectory run = completed(reference::test_model("timing_belt_of_20_and_19_teeth", {"simulate.duration=1"}));
   constexpr double kTorque = 1.6, kFirst = 15.92e-3, kSecond = 15.12e-3;
@@ -297,7 +298,7 @@ TEST(Belts, OverDiscsOfNearlyEqualRadiiTransmitTorques) {
   EXPECT_NEAR(std::abs(at_end(run, "body.load.spin")), kTorque * kSecond / kFirst / 0.02, 0.02);  // against 0.02 N*m*s/rad
 }
 
-// Discs of equal radii wind nothing: their belt is stretched or slack as far as it likes.
+// Discs of equal radii wind nothing: their belt may be stretched or slack by any amount.
 TEST(Belts, RunOverEqualDiscs) {
   const Trajectory run = completed(reference::test_model("belt_over_equal_discs"));
   EXPECT_NEAR(run.joints.at(2).peak, 75.13, 0.1) << run.joints.at(2).name;

@@ -1,5 +1,5 @@
-// The models of tests/broken through the program: each ends with the exit code, the place, the reason and the advice
-// that tests/broken/expected.toml promises; none crashes it or lasts.
+// The models of tests/broken through the program: each ends with the exit code, the place, the reason and the advice that tests/broken/expected.toml promises;
+// none crashes it or takes long.
 #include <gtest/gtest.h>
 
 #include <toml++/toml.h>
@@ -62,7 +62,7 @@ TEST_P(BrokenModel, EndsAsPromised) {
   EXPECT_FALSE(expected.suggestion.empty());
 }
 
-// Exit code 3: one complaint has it all together, and none of the others is without a place, a reason or advice.
+// Exit code 3: one complaint contains all of it, and none of the others lacks a place, a reason or advice.
 TEST_P(BrokenModel, IsLocatedAndExplained) {
   const Expected& expected = GetParam();
   if (expected.exit != 3 || expected.file.starts_with("duration_missing")) return;
@@ -84,7 +84,7 @@ TEST_P(BrokenModel, IsLocatedAndExplained) {
   }
 }
 
-// Exit code 5: what was computed until then is there, and says so.
+// Exit code 5: the results up to the failure are there, and say so.
 TEST_P(BrokenModel, KeepsResultsUpToTheFailure) {
   if (GetParam().exit != 5) return;
   run();

@@ -61,7 +61,7 @@ std::vector<double> column(const Trajectory& run, const std::string& name) {
   return out;
 }
 
-// The pitch curve of a circle of 40 mm that is 10 mm off the axis, with a roller of 12 mm, is a circle of 52 mm: its distance is that of a rod's ends.
+// The pitch curve of a circle of 40 mm that is 10 mm off the axis, with a roller of 12 mm, is a circle of 52 mm: the distance is that of a rod's ends.
 TEST(Cams, AnEccentricCircleIsARod) {
   const std::string law = "stiffness = \"1e7 N/m\"\ndamping = \"2e3 N*s/m\"\n";
   const std::string cam = "[joint.J]\ntype = \"cam\"\nbetween = [\"cam.O\", \"follower.foot\"]\nbase_radius = \"40 mm\"\nroller_radius = \"12 mm\"\nlift = \"10 mm*cos(angle) + sqrt((52 mm)^2 - (10 mm*sin(angle))^2) - 52 mm\"\nlaw = \"linear\"\n" + law;
@@ -76,7 +76,7 @@ TEST(Cams, AnEccentricCircleIsARod) {
     for (const double one : y) peak = std::max(peak, std::abs(one));
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 5e-6 * peak) << name << " row " << i;
   }
-  // The pressure angle is that of the rod, but for what the joints give way.
+  // The pressure angle is that of the rod, except for the deflection of the joints.
   const std::vector<double> angle = column(a, "joint.J.pressure_angle"), turned = column(a, "body.cam.angle"), side = column(a, "joint.J.on_follower.fx[world]"), up = column(a, "joint.J.on_follower.fy[world]");
   for (std::size_t i = 0; i < angle.size(); ++i) {
     EXPECT_NEAR(angle[i], -std::asin(10 * std::sin(turned[i]) / 52), 2e-5);
@@ -133,14 +133,14 @@ TEST(Cams, ACycloidalRiseHasItsAccelerations) {
     const double x = (w * t[i] - kTurn / 12) / up;  // the cam begins 30 degrees before the rise
     if (x < 0 || x >= 1) continue;
     const double s = rise * (x - std::sin(kTurn * x) / kTurn), acceleration = kTurn * rise * std::sin(kTurn * x) / (up * up) * w * w;
-    EXPECT_NEAR(y[i], 0.092 + s, 1e-5) << t[i];  // the joints give way by micrometres
+    EXPECT_NEAR(y[i], 0.092 + s, 1e-5) << t[i];  // the joints deflect by micrometres
     EXPECT_NEAR(force[i], mass * (kStandardGravity + acceleration) + 150 + 8000 * s, 2) << t[i];
     most = std::max(most, acceleration);
   }
   EXPECT_NEAR(most, kTurn * rise / (up * up) * w * w, 0.1);
 }
 
-// Whatever the force is behind the touch at which a step ends.
+// Whatever the force is after the touch at which a step ends.
 TEST(Cams, RowsOfAnOpenContactShowNoForce) {
   const Trajectory run = reference::completed(reference::test_model("lift_off_cam"));
   int open = 0;
@@ -152,7 +152,7 @@ TEST(Cams, RowsOfAnOpenContactShowNoForce) {
   EXPECT_GT(open, 100);
 }
 
-// A particle that leaves a dome flies on to where its height is the root of a negative number.
+// A particle that leaves a dome flies on to where the height of the dome is the root of a negative number.
 TEST(Cams, AnEdgeThatHasNoHeightBesideItsStretchIsNamed) {
   const Trajectory run = simulate(parse_model(R"toml(format = 1
 [simulate]

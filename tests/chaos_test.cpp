@@ -1,4 +1,4 @@
-// Motions whose errors cannot be kept small, and motions whose errors only look so. theory/time section 6.1.
+// Motions whose errors cannot be kept small, and motions whose errors only look as if they could not. theory/time section 6.1.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ TEST(Chaos, ADoublePendulumIsPromisedUpToItsHorizonAtTheCostOfAnOrdinaryRun) {
   EXPECT_LT(run.counters.steps, 10000u);  // measured: 5157
   EXPECT_GT(run.growth.rate, 0.5);
   EXPECT_LT(run.growth.rate, 2.5);
-  // Starts from 84 to 98 degrees find rates of 1.33 that scatter by 0.28 per second: that is covered, and not many times over.
+  // Starts from 84 to 98 degrees give rates of 1.33 that scatter by 0.28 per second: the stated error covers that, but not many times over.
   EXPECT_GT(run.growth.rate_error, 0.28);
   EXPECT_LT(run.growth.rate_error, 3 * 0.28);
   for (const LoadSummary& joint : run.joints) {
@@ -39,7 +39,7 @@ TEST(Chaos, ADoublePendulumIsPromisedUpToItsHorizonAtTheCostOfAnOrdinaryRun) {
   EXPECT_NE(run.message.find("chaotic"), std::string::npos);
 }
 
-// Against a run that is right for that long.
+// Compared with a run that is accurate for that long.
 TEST(Chaos, ForcesAreRightUpToTheHorizon) {
   const Trajectory fine = simulate(chaotic_mechanism("double_pendulum", 10, 1e-8));
   ASSERT_EQ(fine.outcome, Outcome::kCompleted) << fine.message;
@@ -73,13 +73,13 @@ TEST(Chaos, WhatASmallerToleranceMeetsALargerOneMeets) {
   }
 }
 
-// Its pairs of passes grow apart at 0.9 to 1.2 per second, at different rates, and no pair after them at one rate.
+// Its pairs of passes grow apart at 0.9 to 1.2 per second, at different rates, and no later pair at a single rate.
 TEST(Chaos, PassesThatGrowApartAtDifferentRatesAreThoseOfChaos) {
   const std::string file = std::string(PINTLE_SOURCE_DIR) + "/mechanisms/double_pendulum.toml";
   const std::vector<std::string> changes{"parameters.mass=1.11015 kg", "defaults.joint.stiffness=8.32328e7 N/m", "defaults.joint.damping=11047 N*s/m", "simulate.tolerance=1e-2"};
   const Trajectory run = simulate(read_model(file, changes));
   EXPECT_EQ(run.outcome, Outcome::kHorizon) << run.message;
-  EXPECT_NEAR(run.growth.rate, 1.3, 0.7);  // the range of those that other starts of the double pendulum show
+  EXPECT_NEAR(run.growth.rate, 1.3, 0.7);  // the range found from other starts of the double pendulum
   EXPECT_GT(run.growth.horizon, 10);
 }
 
@@ -92,7 +92,7 @@ TEST(Chaos, RegularMotionsAreNotChaotic) {
     }
 }
 
-// Errors of phase grow with the time; steps that are all alike keep passes from agreeing.
+// Phase errors grow with time; steps that are all equal keep passes from agreeing.
 TEST(Chaos, AMotionThatIsBadlyIntegratedMissesItsTolerance) {
   Model model = chaotic_mechanism("pendulum", 200, 1e-12);
   const Trajectory run = simulate(model);
@@ -120,14 +120,14 @@ TEST(Chaos, TheSummaryStatesHorizonsAndGrowth) {
   EXPECT_NE(text.find("promised to [s]"), std::string::npos);
 }
 
-// A hammer that strikes and comes to rest: two passes that part at the first blows and agree again behind them have not separated for good.
+// A hammer that strikes and comes to rest: two passes that part at the first blows and agree again after them have not separated for good.
 TEST(ChaosSlow, IsNotWhereMotionComesToRest) {
   Model model = reference::test_model("striking_train");
   const Trajectory run = reference::completed(model);
   EXPECT_EQ(run.growth.rate, 0);
 }
 
-// The errors of three balls in a row grow from touch to touch, but fall with the tolerance by more than a chaotic motion's.
+// The errors of three balls in a row grow from touch to touch, but fall with the tolerance by more than those of a chaotic motion.
 TEST(Chaos, IsNotClaimedWhileErrorsFall) {
   Model model = reference::test_model("newtons_cradle");
   for (const double tolerance : {1e-4, 3e-5, 1e-5}) {
@@ -138,7 +138,8 @@ TEST(Chaos, IsNotClaimedWhileErrorsFall) {
   }
 }
 
-// The errors of these grow e-fold every quarter of a second while the pendulum leaves its upper position, and no longer. A tighter tolerance met what 1e-3 did not.
+// The errors of this motion grow e-fold every quarter of a second while the pendulum leaves its upper position, and no longer. A tighter tolerance was met where
+// 1e-3 was not.
 TEST(Chaos, APendulumThatFallsFromItsUpperPositionIsNot) {
   for (const char* tolerance : {"1e-3", "1e-5"}) {
     const Trajectory run = simulate(reference::test_model("pendulum_from_its_upper_position", {std::string("simulate.tolerance=") + tolerance}));
@@ -146,11 +147,11 @@ TEST(Chaos, APendulumThatFallsFromItsUpperPositionIsNot) {
   }
 }
 
-// Up to a horizon the finer of two passes is better than the coarser, by as much as their tolerances differ.
+// Up to a horizon the finer of two passes is more accurate than the coarser, by as much as their tolerances differ.
 TEST(Chaos, AHorizonIsThatOfTheFinerPass) {
   const Trajectory run = simulate(chaotic_mechanism("double_pendulum", 15, 1e-6));
   ASSERT_EQ(run.outcome, Outcome::kHorizon) << run.message;
-  EXPECT_GT(run.growth.horizon, 10);  // measured: 13.9; of the difference to the coarser pass 2.0
+  EXPECT_GT(run.growth.horizon, 10);  // measured: 13.9; from the difference to the coarser pass 2.0
 }
 
 }  // namespace

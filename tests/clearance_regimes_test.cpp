@@ -1,5 +1,5 @@
-// A slider-crank with a worn pin: where the pin stands at the start, and motions that repeat with the crank beside motions that never do.
-// theory/contact section 9.
+// A slider-crank with a worn pin: where the pin is at the start, and motions that repeat with the crank as against motions that never do. theory/contact
+// section 9.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ double& restitution_of_b(Model& model) {
   throw std::logic_error("no joint B");
 }
 
-// The other joints give way by more than the smaller clearances; the pin is left in the middle all the same.
+// The other joints deflect by more than the smaller clearances; the pin is left in the middle nevertheless.
 TEST(ClearanceRegimes, ThePinStartsInTheMiddleOfItsPlay) {
   for (const double clearance : {5e-4, 5e-5, 2e-5}) {
     Model model = worn(clearance, "lankarani-nikravesh", 5000, 1e-4);
@@ -38,7 +38,7 @@ TEST(ClearanceRegimes, ThePinStartsInTheMiddleOfItsPlay) {
   }
 }
 
-// At 5000 rpm inertia presses the pin against its bush once the start has died away, and every turn is like the one before.
+// At 5000 rpm inertia presses the pin against its bush once the start has died away, and every turn repeats the previous one.
 TEST(ClearanceRegimes, AFastCrankMakesThePinRepeatItsOrbit) {
   for (const std::string contact_model : {"lankarani-nikravesh", "hunt-crossley", "flores"})
     for (const double clearance : {5e-4, 1e-4}) {
@@ -61,10 +61,10 @@ TEST(ClearanceRegimes, AFastCrankMakesThePinRepeatItsOrbit) {
     }
 }
 
-// At 600 rpm it flies and strikes without end: neighbouring orbits part by a factor of e in about a third of a turn. Rates that are found over half a second scatter:
-// eleven runs at each clearance whose restitutions differ by 1e-9 give 26 to 59 per second at 0.1 mm and 13 to 47 at 0.2 mm, 30 in the middle, and state errors of 27 to 60 % of them.
+// At 600 rpm it flies and strikes without end: neighbouring orbits separate by a factor of e in about a third of a turn. Rates found over half a second scatter: eleven runs at each
+// clearance whose restitutions differ by 1e-9 give 26 to 59 per second at 0.1 mm and 13 to 47 at 0.2 mm, 30 in the middle, and state errors of 27 to 60 % of them.
 TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
-  constexpr double kMiddle = 30, kLeast = 10, kMost = 70, kErrors = 2.5;  // [1/s]; of those that are stated, at most
+  constexpr double kMiddle = 30, kLeast = 10, kMost = 70, kErrors = 2.5;  // [1/s]; the last: in stated errors, at most
   for (const double clearance : {1e-4, 2e-4})
     for (const double restitution : {0.0, 1e-9, -1e-9}) {
       Model model = worn(clearance, "lankarani-nikravesh", 600, 20);
@@ -78,8 +78,8 @@ TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
     }
 }
 
-// With the other law, too: 19 to 43 per second in runs that differ by next to nothing. Two single integrations with restitutions that differ by 1e-11 part as
-// fast within the scatter of such rates over half a second.
+// With the other law, too: 19 to 43 per second in runs that differ by next to nothing. Two single integrations with restitutions that differ by 1e-11 separate
+// equally fast, within the scatter of such rates over half a second.
 TEST(ClearanceRegimesSlow, FloresLawPartsOrbitsAsWell) {
   const Trajectory run = simulate(worn(1e-4, "flores", 600, 20));
   ASSERT_EQ(run.outcome, Outcome::kHorizon) << run.message;
@@ -103,8 +103,8 @@ TEST(ClearanceRegimesSlow, FloresLawPartsOrbitsAsWell) {
   EXPECT_NEAR((n * ty - t * y) / (n * tt - t * t), run.growth.rate, 2 * std::hypot(run.growth.rate_error, run.growth.rate_error));
 }
 
-// Forces are those of a run that is right for longer, up to the horizon. Behind it peaks, means and RMS are statistics, which another orbit shares within what the run says
-// of their scatter.
+// Up to the horizon, forces are those of a run that is accurate for longer. After it, peaks, means and RMS are statistics, which another orbit shares within their stated
+// scatter.
 TEST(ClearanceRegimesSlow, ChaoticForcesArePromisedUpToTheHorizonAndStatisticsBehindIt) {
   Model model = worn(1e-4, "flores", 600, 20);
   const Trajectory run = simulate(model);
@@ -119,7 +119,7 @@ TEST(ClearanceRegimesSlow, ChaoticForcesArePromisedUpToTheHorizonAndStatisticsBe
     const LoadSummary &joint = run.joints[j], &again = other.joints[j];
     const std::string column = joint.name + ".on_" + joint.second_body;
     double error = 0, peak = 0;
-    EXPECT_GT(joint.horizon, 0.05) << joint.name;  // 0.085 to 0.2 s of runs that differ by next to nothing
+    EXPECT_GT(joint.horizon, 0.05) << joint.name;  // 0.085 to 0.2 s in runs that differ by next to nothing
     ASSERT_LT(joint.horizon, 0.25) << joint.name;
     for (std::size_t row = 0; run.at(row, 0) <= joint.horizon; ++row) {
       const double x = reference::value(fine, row, "joint." + column + ".fx[world]"), y = reference::value(fine, row, "joint." + column + ".fy[world]");
@@ -131,14 +131,14 @@ TEST(ClearanceRegimesSlow, ChaoticForcesArePromisedUpToTheHorizonAndStatisticsBe
     EXPECT_GT(joint.rms_after, joint.mean_after);
     EXPECT_GT(joint.mean_after, 0);
     EXPECT_NE(joint.rms_after, again.rms_after);
-    // A scatter is that of two passes: it may come out small by chance, but seldom twice.
+    // The scatter is found from two passes: it may come out small by chance, but seldom twice.
     EXPECT_NEAR(joint.rms_after, again.rms_after, 3 * std::max(joint.rms_scatter, again.rms_scatter)) << joint.name;
     EXPECT_NEAR(joint.mean_after, again.mean_after, 3 * std::max(joint.mean_scatter, again.mean_scatter)) << joint.name;
   }
 }
 
-// Forces of impacts part at once and say nothing of how errors grow; places do. A horizon is that of the finest passes: after too coarse ones, which part no later than
-// coarser ones, it would be a tenth of it.
+// Impact forces separate at once and are no guide to the growth of errors; positions are. The horizon is that of the finest passes. After passes that are too coarse,
+// which separate no later than coarser ones, it would be a tenth as long.
 TEST(ClearanceRegimesSlow, PinsThatBounceArePromisedAsLongAsFinePassesAgree) {
   struct Case {
     const char* model;

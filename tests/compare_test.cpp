@@ -1,4 +1,4 @@
-// Compliant joints beside ideal ones, and how stiff they have to be.
+// Compliant joints compared with ideal ones, and how stiff they have to be.
 #include "pintle/compare.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(Compare, DifferenceWithinTheErrorsIsNumerical) {
   EXPECT_EQ(text.find("it comes from joint compliance"), std::string::npos);
 }
 
-// Couples have errors of their own [N*m]; a body that stands still is compared with those that move.
+// Couples have errors of their own [N*m]; a body that stands still is measured by those that move.
 TEST(Compare, CouplesAreJudgedByTheirOwnErrors) {
   const Model model = reference::mechanism("slider_crank", {"simulate.tolerance=1e-6", "simulate.duration=0.1"});
   const Comparison c = compare(model, Equations::kIdeal);
@@ -62,7 +62,7 @@ TEST(Compare, CouplesAreJudgedByTheirOwnErrors) {
   for (const Difference& coordinate : c.coordinates) EXPECT_GE(coordinate.digits, 2) << coordinate.name;
 }
 
-// Rows that only one of the runs has are left out, whichever it is.
+// Rows that only one of the runs has are left out, whichever run it is.
 TEST(Compare, RunsAreComparedWhereBothHaveRows) {
   const auto run = [](const char* step) { return simulate(reference::mechanism("four_bar", {"simulate.duration=0.12 s", std::string("simulate.output_step=") + step})); };
   const Model model = reference::mechanism("four_bar");
@@ -84,8 +84,8 @@ TEST(Compare, RedundantReactionsAreNotUnique) {
   for (const Difference& force : c.forces) EXPECT_EQ(force.cause, Cause::kNotUnique) << force.name;
 }
 
-// By hand: the middle crank, too long by e, and the two outer ones are springs (two pins of k in a row each) on a stiff
-// coupler: the middle one is pressed with k e / 3, the outer ones pulled with half of that.
+// By hand: the middle crank, too long by e, and the two outer ones act as springs (two pins of stiffness k in series each) on a stiff coupler: the middle one
+// is compressed with k e / 3, the outer ones pulled with half of that.
 TEST(Compare, CompliantJointsShareTheLoadOfAMisfit) {
   Model model = reference::mechanism("five_bar_parallelogram");
   reference::set_joints(model, 1e9, 3e4);
@@ -123,12 +123,12 @@ TEST(Stiffen, FindsTheFourBarsStiffnessAndItsLimit) {
     EXPECT_LT(limit.error, 1e-6 * peak) << limit.name;
     EXPECT_GE(limit.error, s.steps.back().error_estimate * limit.peak) << limit.name;
   }
-  // With what is recommended joint by joint the digits agree with ideal joints.
+  // With the stiffness recommended for each joint the digits agree with ideal joints.
   const Comparison c = compare(stiffened(model, s.joints), Equations::kIdeal);
   for (const Difference& force : c.forces) EXPECT_GE(force.digits, 4) << force.name;
 }
 
-// Where friction holds, the position of rest is one of many, and each stiffness comes to another.
+// Where friction holds, the position of rest is one of many, and each stiffness leads to another.
 TEST(Stiffen, NamesJointsThatFrictionHolds) {
   StiffenRequest request;
   request.digits = 3;
@@ -137,7 +137,7 @@ TEST(Stiffen, NamesJointsThatFrictionHolds) {
   EXPECT_NE(s.reason.find("friction holds M, bl, cyl at the end"), std::string::npos) << s.reason;
 }
 
-// Two decades below the stiffest run's own difference: the limit, where the runs' errors are smaller still.
+// The limit is two decades below the stiffest run's own difference, where the runs' errors are smaller still.
 TEST(Stiffen, TheLimitIsTwoDigitsBetterThanTheStiffestRun) {
   StiffenRequest request;
   request.digits = 8;
@@ -196,7 +196,7 @@ TEST(Compare, ChaoticMotionsAreComparedUpToTheirHorizon) {
   for (const VariantJoint& joint : side_by_side.joints) EXPECT_EQ(joint.loads[1].cause, Cause::kChaotic) << joint.joint;
 }
 
-// A motor of the wrong sign feeds every run of them the same way: their digits agree.
+// A motor of the wrong sign feeds every run of the sequence in the same way: their digits agree.
 TEST(Stiffen, RunawaysAndChaosHaveNoLimit) {
   const Stiffening runaway = stiffen(parse_model(R"toml(
 format = 1

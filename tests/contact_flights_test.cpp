@@ -1,4 +1,4 @@
-// Between two touches a mechanism is driven, sprung or thrown: how well the flight is known decides when it ends, and with it every force of a blow that lasts a millisecond.
+// Between two touches a mechanism is driven, sprung or thrown. The accuracy of the flight decides when it ends, and with it every force of a blow that lasts a millisecond.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-// The largest difference of a joint's force, over its peak.
+// The largest difference of a joint's force, relative to its peak.
 double largest_difference(const Trajectory& run, const Trajectory& truth, const LoadSummary& joint) {
   const std::string column = "joint." + joint.name + ".on_" + joint.second_body;
   double largest = 0;
@@ -25,7 +25,7 @@ double largest_difference(const Trajectory& run, const Trajectory& truth, const 
   return largest / joint.peak;
 }
 
-// The hand's spring makes half a period of a flight that is one step in every pass. All passes were late by 25 ns, and 38 times the tolerance.
+// The hand's spring goes through half a period in a flight that every pass makes in one step. All passes were late by 25 ns, and off by 38 times the tolerance.
 TEST(ContactFlights, EndInTimeAlthoughEveryPassMakesThemInOneStep) {
   for (const char* equations : {"newtonian", "relative"})
     for (const char* onset : {"0.018", "0.02", "0.022"}) {

@@ -1,4 +1,4 @@
-// The order of the method across a touch and a let-go, of a force that is smooth between them. theory/contact section 5.
+// The order of the method across a touch and a release, for a force that is smooth between them. theory/contact section 5.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
@@ -46,8 +46,8 @@ restitution = {}
                      "thrown.toml");
 }
 
-// How long the contact lasts: theory/contact (2.1) for n = 1 from the touch to the speed x of the approach gives the depth, and dt = -dx m v/(K d (1 + h x)); in
-// the angle of the circle on the range of x from -e to 1 the integrand is smooth and periodic, so that the midpoint rule converges to rounding.
+// Duration of the contact: theory/contact (2.1) for n = 1, from the touch to the approach speed x, gives the depth, and dt = -dx m v/(K d (1 + h x)). In the
+// angle of the circle on the range of x from -e to 1 the integrand is smooth and periodic, so that the midpoint rule converges to roundoff.
 double contact_time() {
   const double h = hysteresis_of(ContactModel::kExact, kRestitution), middle = 0.5 * (1 - kRestitution), radius = 0.5 * (1 + kRestitution);
   const auto integral = [h](double x) { return x / h - std::log1p(h * x) / (h * h); };  // of x/(1 + h x)
@@ -92,7 +92,7 @@ Flight fly(int stages, double tolerance, double max_step = 0) {
   return out;
 }
 
-// The slope of the errors over `sizes`, both logarithmic, by least squares.
+// The slope of the errors over `sizes` in logarithmic scales, by least squares.
 double order(const std::vector<double>& sizes, const std::vector<double>& errors) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -106,8 +106,8 @@ double order(const std::vector<double>& sizes, const std::vector<double>& errors
   return -(n * xy - x * y) / (n * xx - x * x);
 }
 
-// Three stages have order 5, five have order 9. Errors fall from 1e-4 to 1e-12 on the way; rounding makes 1e-15. Measured: 6.4 and 9.1, as the control of the
-// steps refines where it matters most.
+// Three stages have order 5, five have order 9. Errors fall from 1e-4 to 1e-12 over the tests; roundoff is 1e-15. Measured: 6.4 and 9.1, as step control
+// refines where it matters most.
 TEST(ContactOrder, ErrorsFallWithTheStepsOfAContactAtTheFullOrder) {
   for (const int stages : {3, 5}) {
     std::vector<double> steps, position, impulse;
@@ -124,13 +124,13 @@ TEST(ContactOrder, ErrorsFallWithTheStepsOfAContactAtTheFullOrder) {
   }
 }
 
-// The same with the longest step: the short ones behind the touch do not stand for the others. Measured: 5.5.
+// The same with the longest step: the short ones after the touch are not representative of the others. Measured: 5.5.
 TEST(ContactOrder, ErrorsFallWithTheLongestStepAtTheFullOrder) {
   std::vector<double> parts, position, impulse;
   for (const double n : {8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0}) {
     const double longest = contact_time() / n;
     const Flight flight = fly(3, 100 * std::pow(n, -4), longest);
-    EXPECT_NEAR(flight.longest, longest, 1e-9 * longest) << n;  // it is what bounds the steps
+    EXPECT_NEAR(flight.longest, longest, 1e-9 * longest) << n;  // it is what limits the steps
     parts.push_back(n);
     position.push_back(flight.position);
     impulse.push_back(flight.impulse);

@@ -1,4 +1,4 @@
-// Runs that note where the laws of contacts change their state.
+// Runs that record where the laws of contacts change their state.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace pintle::contacts {
 
 constexpr int kTouch = 0, kLetGo = 1;
 
-// A touch or a let-go: when, and how fast the bodies then move towards each other.
+// A touch or a release: when, which of the two, and in which joint.
 struct Contact {
   double t;
   int border;
@@ -21,12 +21,12 @@ struct Contact {
 
 struct Followed {
   std::vector<Contact> contacts;
-  std::vector<State> touched;  // the states just behind them
+  std::vector<State> touched;  // the states just after them
   State end;
   Counters counters;
 };
 
-// The borders that the laws cross, as steps end there.
+// The borders that the laws cross; steps end there.
 inline Followed follow(const Model& model, double tolerance, double t_end, MethodChoice choice) {
   const Assembly assembly = start_of_run(model);
   const System& system = assembly.system;
@@ -41,7 +41,7 @@ inline Followed follow(const Model& model, double tolerance, double t_end, Metho
       ADD_FAILURE() << stepper->failure();
       break;
     }
-    const State& begin = stepper->previous();  // behind whatever has been crossed before this step
+    const State& begin = stepper->previous();  // after whatever has been crossed before this step
     for (std::size_t z = 0; z < states.size(); ++z)
       if ((states[z] > 0) != (begin.law_state[z] > 0)) {
         int joint = 0;

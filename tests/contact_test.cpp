@@ -70,7 +70,7 @@ TEST(Contact, AFreeImpactReturnsWhatItsHysteresisSays) {
       }
 }
 
-// METHOD: asked for 0.5, the published laws return something else.
+// METHOD: with 0.5 asked for, the published laws return other restitutions.
 TEST(Contact, ThePublishedLawsDoNotReturnTheRestitutionAskedFor) {
   EXPECT_NEAR(restitution_of(hysteresis_of(ContactModel::kHuntCrossley, 0.5)), 0.663, 5e-4);
   EXPECT_NEAR(restitution_of(hysteresis_of(ContactModel::kLankaraniNikravesh, 0.5)), 0.725, 5e-4);
@@ -79,8 +79,8 @@ TEST(Contact, ThePublishedLawsDoNotReturnTheRestitutionAskedFor) {
   for (double e = 0.02; e <= 1; e += 0.02) EXPECT_NEAR(restitution_of(hysteresis_of(ContactModel::kExact, e)), e, 1e-12);
 }
 
-// Spring and damper: until the force vanishes, x = v/w_d exp(-z w t) sin(w_d t) ends at tan(w_d t) = -.. in closed form; kept attraction ends at
-// half a period. The force jumps at the touch, which is crossed by 1e-9 of a step.
+// Spring and damper: until the force vanishes, x = v/w_d exp(-z w t) sin(w_d t) ends at tan(w_d t) = -.. in closed form; with attraction kept it ends at half a
+// period. The force jumps at the touch, which is crossed by 1e-9 of a step.
 TEST(Contact, ALinearContactEndsWhereItsForceVanishesOrWhereTheBodiesPart) {
   const double m = 2, k = 1e7, v = 0.5;
   for (const double ratio : {0.09, 0.88}) {
@@ -100,7 +100,7 @@ TEST(Contact, ALinearContactEndsWhereItsForceVanishesOrWhereTheBodiesPart) {
 
 // --- Balances ---
 
-// Two free bodies, a bush and a pin that flies about in it and rubs: nothing acts from outside, so that both momenta stay.
+// Two free bodies, a bush and a pin that flies about in it and rubs: no external force acts, so that both momenta are constant.
 TEST(Contact, NoMomentumIsLostWherePinAndBushRub) {
   const Model model = parse_model(R"toml(
 format = 1
@@ -153,7 +153,7 @@ friction_coefficient = 0.3
   EXPECT_GT(run.end.dissipated, 0.01);
 }
 
-// A block thrown along an edge that it is pressed on: friction takes mu times the impulse of the normal force, whatever that does.
+// A block thrown along an edge onto which it is pressed: friction takes mu times the impulse of the normal force, however that varies.
 TEST(Contact, FrictionTakesItsShareOfTheNormalImpulse) {
   const double mu = 0.25, v0 = 2, g = 9.81;
   const Model model = parse_model(fmt::format(R"toml(
@@ -188,7 +188,7 @@ friction_coefficient = {}
   EXPECT_NEAR(run.end.v[0][0], v0 - mu * (g * 0.5 + run.end.v[0][1]), 1e-8);
 }
 
-// A slider that is loaded beside its middle lies on one wall, and its ends share the load by the lever; beyond an end it tilts between both walls.
+// A slider loaded off its middle lies on one wall, and its ends share the load by the lever; with the load beyond an end it tilts between both walls.
 TEST(Contact, TheEndsOfALooseSliderShareItsLoadByTheLever) {
   const double load = 100, length = 0.1;
   for (const double arm : {0.02, 0.08}) {
@@ -229,7 +229,7 @@ force = [0, {}]
     EXPECT_NEAR(last("joint.guide.contact_force_rear"), std::abs(load * (0.5 - arm / length)), 1e-2 * load);
     ASSERT_EQ(run.events.size(), 1u);
     EXPECT_EQ(run.events[0].joint, "guide");
-    ASSERT_EQ(run.events[0].columns.size(), 8u);  // the law's and the heat
+    ASSERT_EQ(run.events[0].columns.size(), 8u);  // those of the law and the heat
     EXPECT_EQ(run.events[0].columns.back().name, "heat");
     EXPECT_EQ(run.events[0].events.front().values.size(), 8u);
   }
@@ -258,7 +258,7 @@ TEST(Contact, BodiesThatStartInsideEachOtherAreRefused) {
   }
 }
 
-// Where assembly has moved them there, the complaint says so.
+// Where assembly has moved them there, the message says so.
 TEST(Contact, BodiesThatAssemblyPutsInsideEachOtherAreRefusedWithWhatItDid) {
   try {
     simulate(reference::test_model("walker_in_the_floor"));
@@ -269,7 +269,7 @@ TEST(Contact, BodiesThatAssemblyPutsInsideEachOtherAreRefusedWithWhatItDid) {
   }
 }
 
-// A pendulum that falls onto a floor starts as one without a floor, whatever the duration: what it does not touch does not hold it.
+// A pendulum that falls onto a floor starts as one without a floor, whatever the duration: a floor that it does not touch does not hold it.
 TEST(Contact, AFloorBelowDoesNotMatterAtTheStart) {
   const auto pendulum = [](double duration, const std::string& floor) {
     return parse_model(fmt::format(R"toml(
@@ -327,8 +327,8 @@ TEST(Contact, EveryMethodTouchesAndLetsGo) {
   }
 }
 
-// A block that falls 10 mm on an edge of 1e8 N/m and 1e4 N s/m. The contact's steps are a ten thousandth of the flight's; those before a let-go that lies ahead
-// begin at their own length, not at that of the flight. m d'' = m g - k d - c d' while k d + c d' > 0, then flight.
+// A block that falls 10 mm on an edge of 1e8 N/m and 1e4 N s/m. The contact's steps are a ten-thousandth of the flight's; those that lead up to a release begin
+// at their own length, not at that of the flight. m d'' = m g - k d - c d' while k d + c d' > 0, then flight.
 TEST(LinearContact, BouncesAsInClosedFormAndComesToRest) {
   constexpr double kG = 9.80665, kMass = 2, kStiff = 1e8, kDamp = 1e4, kHeight = 0.01;
   const double decay = kDamp / (2 * kMass), w = std::sqrt(kStiff / kMass - decay * decay), rest = kMass * kG / kStiff;
@@ -401,7 +401,7 @@ std::string foot(const std::string& name) {
   return fmt::format("[joint.{0}]\ntype = \"slot\"\nbetween = [\"ground.t\", \"part.{0}\"]\nlaw = \"contact\"\npin_radius = 0\ncontact_stiffness = 1e6\ncontact_exponent = 1\nfriction_coefficient = 0.2\n", name);
 }
 
-// A block on two feet, which it presses into a table by so much, at rest on it or not yet.
+// A block on two feet; its height decides how deep it presses them into a table, and its start whether it rests on it yet.
 Model block_on_table(const std::string& height, const std::string& start) {
   return parse_model(fmt::format(R"toml(
 format = 1
@@ -420,13 +420,13 @@ markers.f2 = ["10 mm", "-20 mm"]
 {}{})toml", start, height, foot("f1"), foot("f2")), "block.toml");
 }
 
-// Friction on a ramp that begins at rest is linear there.
+// Friction with a ramp is linear where it begins at rest.
 TEST(Contact, TheSlopeOfFrictionAtRestIsThatOfItsRamp) { EXPECT_TRUE(check_model(block_on_table("19.999 mm", "assembled")).jacobians.passed()); }
 
-// Where bodies are to settle first, they may be stated inside each other: they are checked at rest.
+// Bodies that are to settle first may be stated inside each other: they are checked at rest.
 TEST(Contact, IsCheckedWhereBodiesSettle) { EXPECT_TRUE(check_model(block_on_table("10 mm", "settled")).jacobians.passed()); }
 
-// A touch of 0.1 ms after a flight of half a second: its end lies within what was too little of the flight to be stepped through.
+// A touch of 0.1 ms after a flight of half a second: its end lies within a distance that is too small a part of the flight to take steps through.
 TEST(LinearContact, TouchesMuchShorterThanTheFlightKeepTheirEnergy) {
   for (const double stiffness : {1e7, 1e8, 1e9, 1e10})
     for (const double tolerance : {1e-3, 1e-5}) {

@@ -1,4 +1,4 @@
-// Cylinders in whole runs: closed forms of what they push, hold and throw, balances, complaints.
+// Cylinders in whole runs: closed forms of pushing, holding and throwing, balances, complaints.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ constexpr double kCap = 25e-4 * kPi, kRod = 16e-4 * kPi;  // of 100/60 mm [m^2]
 
 const std::string kHard = "stops = \"hard\"\nstop_stiffness = \"1e7 N/m\"\n";
 
-// A mass on a slide, pushed by a cylinder of 100/60 mm that is 100 mm out.
+// A mass on a slide, pushed by a cylinder of 100/60 mm that is extended by 100 mm.
 std::string pushed_piston(const std::string& more, const std::string& duration = "0.2 s") {
   return fmt::format(R"toml(
 format = 1
@@ -82,7 +82,7 @@ TEST(Cylinders, ConstantPressureAcceleratesEvenly) {
   }
 }
 
-// A boom let go at w under the pressure that virtual work asks for (theory/cylinders Eq. (5.2)) keeps turning at w.
+// A boom released with the spin w under the pressure that virtual work requires (theory/cylinders Eq. (5.2)) keeps turning at w.
 TEST(Cylinders, ABoomUnderThePressureOfVirtualWorkIsInBalanceEverywhere) {
   const Model model = parse_model(R"toml(
 format = 1
@@ -139,7 +139,7 @@ cap_pressure = "weight*2 m*cos(foot_angle + acos((foot^2 + eye^2 - (closed + str
   EXPECT_LT(drift(run), 1);
 }
 
-// Air that is shut in gives p1 V1/(n - 1) (1 - (V1/V)^(n - 1)) less p0 A x; the cushion takes it, and the account closes over the impact.
+// The work of enclosed air is p1 V1/(n - 1) (1 - (V1/V)^(n - 1)) less p0 A x; the cushion takes it, and the account closes over the impact.
 TEST(Cylinders, ExpandingAirThrowsAMassIntoTheCushion) {
   const std::string air = R"(stroke = "400 mm"
 cap_pressure = "7 bar*(150 mm/(50 mm + stroke))^1.4"
@@ -162,12 +162,12 @@ stop_cushion = "30 mm")";
     EXPECT_GT(run.energy.dissipated, 0.9 * work);
     EXPECT_LT(drift(run), 1e-5 * work);
     EXPECT_LT(at_end(run, "joint.ram.stroke"), 0.4);
-    // At rest against the cushion: what the air still pushes with.
+    // At rest against the cushion: the force with which the air still pushes.
     EXPECT_NEAR(at_end(run, "joint.ram.stop_force"), -(at_end(run, "joint.ram.cap_force") - at_end(run, "joint.ram.rod_force")), 30);
   }
 }
 
-// Friction of fast slip: mu (N_0 + A_s (p_c + p_r)). A ram that its seals hold does not move, one that they do not hold does.
+// Friction of fast slip: mu (N_0 + A_s (p_c + p_r)). A ram that its seals can hold does not move, another one does.
 TEST(Cylinders, SealsRubMoreUnderPressure) {
   const std::string seals = kHard + "rod_pressure = \"5 bar\"\nstroke = \"2 m\"\nfriction_coefficient = 0.1\nstatic_friction = 0.15\nfriction_preload = \"2 kN\"\nseal_area = \"15 cm^2\"\n";
   const Trajectory run = completed(ram(seals + "cap_pressure = \"20 bar\"\nfriction = \"stribeck\"", "0.05 s"));
@@ -175,7 +175,7 @@ TEST(Cylinders, SealsRubMoreUnderPressure) {
   EXPECT_NEAR(at_end(run, "joint.ram.friction"), -0.1 * load, 1e-6 * load);
   EXPECT_NEAR(at_end(run, "joint.ram.force"), force - 0.1 * load, 1e-6 * force);
   EXPECT_LT(drift(run), 1e-5 * run.energy.supplied);
-  // Beyond the balance of both sides it breaks away at 0.15 N.
+  // Beyond the balance of both sides it breaks away at 0.15 times the normal force.
   const double balance = 5e5 * kRod / kCap, breakaway = 0.15 * (2000 + 15e-4 * (5e5 + balance)) / (kCap - 0.15 * 15e-4);
   for (const double share : {0.99, 1.01}) {
     const Trajectory held = completed(ram(seals + fmt::format("cap_pressure = \"{:.3f} Pa + {:.3f} Pa*smoothstep(0 s, 0.1 s, t)\"\nfriction = \"coulomb\"", balance, share * breakaway)));
@@ -192,7 +192,7 @@ TEST(Cylinders, SealsRubMoreUnderPressure) {
   }
 }
 
-// A valve that opens at once is a jump that a step ends on.
+// A valve that opens at once is a jump, on which a step ends.
 TEST(Cylinders, AValveThatOpensIsAnEvent) {
   const Trajectory run = completed(ram(kHard + "stroke = \"2 m\"\ncap_pressure = \"if(t < 0.05 s, 0 bar, 1 bar)\""));
   EXPECT_NEAR(at_end(run, "joint.ram.stroke_rate"), 1e5 * kCap / kPistonMass * 0.15, 1e-6);

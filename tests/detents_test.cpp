@@ -1,4 +1,4 @@
-// Detents in whole runs: what a ball holds and what it lets go, the ringing in a notch, balances.
+// Detents in whole runs: loads that a ball holds and loads that it does not, ringing in a notch, balances.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ detent_preload = "20 N"
 detent_rate = "5 N/mm"
 )";
 
-// A slide or a disc of 1 kg or 4e-4 kg*m^2 with the detent, turned or pushed.
+// A slide of 1 kg or a disc of 4e-4 kg*m^2 with the detent, pushed or turned.
 Model detent(bool turns, const std::string& push, const std::string& more = "", double speed = 0) {
   return parse_model(fmt::format(R"toml(
 format = 1
@@ -58,7 +58,7 @@ joint = "guide"
                      "detent.toml");
 }
 
-// Pushed slowly up to a hair below and above what it holds.
+// Pushed slowly to just below and just above the load that it holds.
 TEST(Detents, ABallHoldsUpToItsBreakawayForce) {
   for (const bool turns : {false, true})
     for (const double share : {0.99, 1.01}) {
@@ -74,7 +74,7 @@ TEST(Detents, ABallHoldsUpToItsBreakawayForce) {
     }
 }
 
-// Without friction the way over a notch is free: a body leaves it as fast as it came, slower by the lift 2 (F_0 y + k y^2/2)/m while it is out.
+// Without friction a notch takes no energy: a body leaves it as fast as it came; while out, the lift reduces the square of its speed by 2 (F_0 y + k y^2/2)/m.
 TEST(Detents, ABodyThatGetsOutHasPaidTheLift) {
   const double lift = 20e-3 + 0.5 * 5e3 * 1e-6, speed = 0.4;
   const Trajectory run = completed(detent(false, "0 N", "", speed));

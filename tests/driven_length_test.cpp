@@ -53,7 +53,7 @@ double most_of(const Trajectory& run, const std::string& column) {
   return most;
 }
 
-// Lifted at the acceleration a from rest, the rope carries m (g + a), and the winch gives F a t.
+// Lifting from rest at the acceleration a, the rope carries m (g + a), and the winch delivers the power F a t.
 TEST(DrivenLength, AWinchCarriesTheLoadAndItsAcceleration) {
   const double a = 0.8, end = 2;
   const std::string column = "joint.rope.on_load.fy[world]";
@@ -61,7 +61,7 @@ TEST(DrivenLength, AWinchCarriesTheLoadAndItsAcceleration) {
     Model model = winch("5 m - 0.5*0.8 m/s^2*t^2", "2 s");
     model.joints[0].type = rope ? "rope" : "rod";
     model.simulate.equations = rope ? Equations::kNewtonian : Equations::kRelative;
-    if (rope) {  // ropes start without a load, unless they are stretched already
+    if (rope) {  // ropes start unloaded, unless they are stretched already
       model.simulate.start = Start::kRaw;
       model.bodies[0].position = {0, 1 - kLoad * (kWeightPerMass + a) / 1e8};
       model.bodies[0].velocity = {0, 0};
@@ -79,7 +79,7 @@ TEST(DrivenLength, AWinchCarriesTheLoadAndItsAcceleration) {
   }
 }
 
-// A rod of that length is a constraint that moves: its multiplier is the same force.
+// A rod of driven length is a moving constraint: its multiplier is the same force.
 TEST(DrivenLength, AnIdealRodIsALinkWhoseLengthIsGiven) {
   Model model = winch("5 m - 0.5*0.8 m/s^2*t^2", "2 s");
   model.joints[0].type = "rod";
@@ -140,7 +140,7 @@ damping = 1e5
   }
 }
 
-// Let down faster than it falls, the rope is slack, and the load falls freely.
+// When it is let down faster than its load falls, the rope is slack, and the load falls freely.
 TEST(DrivenLength, ARopeLetDownFasterThanItsLoadFallsIsSlack) {
   const Trajectory run = completed(winch("5 m + 6 m/s^2*t^2", "0.3 s"));
   EXPECT_LT(std::abs(at_end(run, "joint.rope.on_load.fy[world]")), 1e-9);
@@ -164,7 +164,7 @@ TEST(DrivenLength, AWrongLengthIsRefused) {
   EXPECT_EQ(model.joints[0].geometry.at("length"), 5);
 }
 
-// A rope with a load of 10 kg is 10 mm shorter all at once: what the winch puts into its stretch beyond what lifts the load ends as heat in the rope.
+// A rope with a load of 10 kg becomes 10 mm shorter at once: the work of the winch on its stretch, beyond the lifting of the load, ends as heat in the rope.
 TEST(DrivenLength, AJumpOfItHeatsTheRopeByHalfOfItsStretch) {
   const Trajectory run = reference::completed(parse_model(R"toml(format = 1
 [simulate]
@@ -188,7 +188,7 @@ damping = "500 N*s/m"
   EXPECT_NEAR(run.joints.at(0).heat, run.energy.dissipated, 1e-4);
 }
 
-// Thread and rod begin with the tension that their stretch says, and a spring balances them.
+// Thread and rod begin with the tension given by their stretch, and a spring balances them.
 TEST(DrivenLength, ATieBeginsStretched) {
   for (const char* type : {"rope", "rod"}) {
     const Trajectory run = reference::completed(parse_model(std::string(R"toml(

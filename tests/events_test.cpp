@@ -15,7 +15,7 @@
 namespace pintle {
 namespace {
 
-// A one-sided spring under what a slider leaves free, and a border that only says where the motion turns upwards.
+// A one-sided spring in the free coordinate of a slider, and a border that only marks where the motion turns upwards.
 struct PadLaw {
   static constexpr std::string_view kWord = "pad";
   double k = 0;
@@ -75,12 +75,12 @@ law = "pad"
 )toml", "bouncing.toml");
 }
 
-// Falls, is on the pad from `touch` on for `contact`, and flies for `flight`; the same again and again, as nothing is lost.
+// Falls, is on the pad from `touch` on for `contact`, and flies for `flight`; this repeats, as nothing is lost.
 struct Bounces {
   double speed = std::sqrt(2 * kStandardGravity * kHeight), w = std::sqrt(kFloorStiffness / kFallingMass);
   double touch = speed / kStandardGravity, flight = 2 * touch, contact = 2 * (std::numbers::pi - std::atan(speed * w / kStandardGravity)) / w;
 
-  // Touch, turning point, let-go, touch ..
+  // Touch, turning point, release, touch ..
   double event(int i) const { return touch + i / 3 * (contact + flight) + 0.5 * contact * (i % 3); }
 };
 
@@ -104,7 +104,7 @@ TEST(Events, ABlockTouchesTurnsAndLetsGoWhenItShould) {
         seen = stepper.counters().events;
       }
       // A free fall is exact; after it the solution's own error adds up.
-      ASSERT_EQ(events.size(), 9u) << stages;  // of three bounces; the highest points are none
+      ASSERT_EQ(events.size(), 9u) << stages;  // of three bounces; the highest points are no events
       for (int i = 0; i < 9; ++i) {
         EXPECT_NEAR(events[i].t, exact.event(i), i == 0 ? 1e-10 : 3 * tolerance) << i << ' ' << stages << ' ' << tolerance;
         EXPECT_EQ(events[i].function, i % 3 == 1 ? 1 : 0) << i;
@@ -123,7 +123,7 @@ TEST(Events, ARunCountsThemAndKeepsItsTolerance) {
     EXPECT_EQ(run.counters.events, 11 * run.counters.passes);  // up to the fourth turning point
     const int y = run.column("body.block.y");
     for (std::size_t i = 0; i < run.n_rows(); ++i) {
-      const double since = std::fmod(run.at(i, 0) + 0.5 * exact.flight, exact.contact + exact.flight);  // the last let-go
+      const double since = std::fmod(run.at(i, 0) + 0.5 * exact.flight, exact.contact + exact.flight);  // since the last release
       if (since < exact.flight) EXPECT_NEAR(run.at(i, y), kHeight - 0.5 * kStandardGravity * std::pow(since - 0.5 * exact.flight, 2), 2e-5) << run.at(i, 0);
       else EXPECT_LT(run.at(i, y), 1e-6);
     }
@@ -131,7 +131,7 @@ TEST(Events, ARunCountsThemAndKeepsItsTolerance) {
   }
 }
 
-// A joint that the equations keep closed does not rub: said, once for each.
+// A joint that the equations keep closed has no friction: one note for each says so.
 TEST(Events, FrictionOfAnIdealJointIsMissedAloud) {
   Model model = reference::rubbing_four_bar();
   model.simulate.duration = 0.01;
@@ -151,7 +151,7 @@ TEST(Events, FrictionOfAnIdealJointIsMissedAloud) {
   EXPECT_EQ(lost(simulate(model)), std::vector{all[0]});
 }
 
-// A pin comes to stick where what holds it depends on how far the step goes beyond: trials towards it come nearer by a twelfth each.
+// A pin comes to stick where the force that holds it depends on how far the step goes beyond: each trial comes nearer to the event by a twelfth.
 TEST(Events, AStepThatNearsAnEventSlowlyGoesWhereItsTrialsLead) {
   Model model = reference::test_model("toggle_clamp_of_rubbing_pins");
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
@@ -161,9 +161,10 @@ TEST(Events, AStepThatNearsAnEventSlowlyGoesWhereItsTrialsLead) {
   }
 }
 
-// Nothing moves until a cord goes taut. Steps that end before it had left the time to it out: rows there were those of the taut cord, a thousand times the peak, and no mean had it.
+// Nothing moves until a cord goes taut. Steps that end before it used to skip the time up to it: rows there were those of the taut cord, a thousand times the peak, and no mean
+// included them.
 TEST(Events, WhatRestsUntilAnEventIsAtRestInTheRowsBeforeIt) {
-  constexpr double kTaut = 2.11811496879912;  // by the cord's length, 0.6 m - 0.1 m/s t
+  constexpr double kTaut = 2.11811496879912;  // from the cord's length, 0.6 m - 0.1 m/s t
   Model model = reference::test_model("friction_stay_with_cord");
   for (const Equations equations : {Equations::kNewtonian, Equations::kRelative}) {
     model.simulate.equations = equations;

@@ -19,7 +19,7 @@ using reference::completed;
 using reference::drift;
 using reference::value;
 
-// Two blades of steel hang from the ground and carry a table, which a force pushes at half their height.
+// Two steel blades hang from the ground and carry a table, which a force pushes at half their height.
 Model stage(const std::string& push, const std::string& rest = "", double mass = 2, double thickness = 5e-4, double other_width = 0.03) {
   return parse_model(fmt::format(R"toml(
 format = 1
@@ -61,13 +61,13 @@ force = [{1}, 0]
 }
 constexpr double bending_stiffness(double width, double thickness) { return 207e9 * width * thickness * thickness * thickness / 12; }
 constexpr double kBladeEI = bending_stiffness(0.03, 5e-4), kL = 0.1;
-// Across, of one blade guided in angle under this tension: theory/flexures section 2.
+// Stiffness across one blade, guided in angle under this tension: theory/flexures section 2.
 double guided_stiffness(double tension, double EI = kBladeEI) {
   const double k = std::sqrt(tension * kL * kL / EI);
   return EI / (kL * kL * kL) * k * k * k / (k - 2 * std::tanh(0.5 * k));
 }
 
-// No position is stated: the table is put at the ends of the blades. It starts where its weight and a push hold it, and stays.
+// No position is stated: the table is put at the ends of the blades. It starts where its weight and a push hold it, and stays there.
 TEST(SlowFlexures, StartWhereTheLoadHoldsThem) {
   const Trajectory idle = completed(stage("0")), pushed = completed(stage("2"));
   const double x = at_end(pushed, "body.table.x");
@@ -82,13 +82,13 @@ TEST(SlowFlexures, StartWhereTheLoadHoldsThem) {
         EXPECT_NEAR(value(pushed, i, name), at_end(pushed, name), 1e-6 * 2 * kStandardGravity) << name << ' ' << i;
       }
   }
-  // The clamps carry the moment F L/4 each, less what the weight takes; and half of the weight.
+  // The clamps carry the moment F L/4 each, less the part of the weight; and half of the weight.
   const double moment = 0.5 * 2 * 0.5 * kL - 0.5 * kStandardGravity * x, stress = moment * 6 / (0.03 * 25e-8) + kStandardGravity / (0.03 * 5e-4);
   EXPECT_NEAR(at_end(pushed, "joint.left.bending_stress"), stress, 0.02 * stress);
 }
 
-// Thin blades of unlike widths, up to three quarters of their length aside: what stretches them is millions of times stiffer than what bends them, along a curve, and
-// each knows only its own. A start that finds their gaps one by one puts the table hundreds of metres away.
+// Thin blades of different widths, pushed aside by up to three quarters of their length. Each is millions of times stiffer in stretch than in bending, along a curve
+// of its own. A start that finds their gaps one by one puts the table hundreds of metres away.
 TEST(SlowFlexures, StartUnlikeBladesTogether) {
   const double mass = 0.37, thickness = 3e-4, width = 0.01, weight = mass * kStandardGravity;
   for (const double push : {0.5, 1.5, 5.0, 10.0, 40.0}) {
@@ -122,8 +122,8 @@ class Elastica {
   }
 };
 
-// A weight at the free end of a long blade bends it far; where, an elastica without stretch says in elliptic integrals (Bisshopp and Drucker 1945). The blade's own
-// stretch is below 1e-6 of its length.
+// A weight at the free end of a long blade bends it far; the position is that of an inextensible elastica in elliptic integrals (Bisshopp and Drucker 1945). The
+// blade's own stretch is below 1e-6 of its length.
 TEST(SlowFlexures, StartFarBentUnderAWeight) {
   const Elastica elastica(0.9);
   const Elastica::Point end = elastica.at(1);
@@ -157,7 +157,7 @@ thickness = 1e-3
   }
 }
 
-// `n` blades in a row, with small bodies between them and at the end, on which a force pulls across.
+// `n` blades in a row, with small bodies between them and at the end, where a force pulls across.
 Model blades_in_a_row(int n, double length, const std::string& pull, const std::string& start) {
   std::string text = fmt::format(R"toml(
 format = 1
@@ -191,7 +191,7 @@ damping_time = 1e-3
   return parse_model(text, "blades.toml");
 }
 
-// Places, slopes and the forces and moments between the parts are the elastica's there, but for its stretch of 1e-6 of its length.
+// Positions, slopes, and forces and moments between the parts are those of the elastica, except for its stretch of 1e-6 of its length.
 void expect_elastica(const Trajectory& run, std::size_t row, int n, double length, double pull, const Elastica& elastica) {
   for (int i = 1; i <= n; ++i) {
     const Elastica::Point point = elastica.at(static_cast<double>(i) / n), before = elastica.at((i - 1.0) / n);
@@ -205,7 +205,7 @@ void expect_elastica(const Trajectory& run, std::size_t row, int n, double lengt
   }
 }
 
-// Cut into 3 or 6, a blade is the one that it was, where a force that grows slowly leaves it. One integration: its end is an equilibrium, whatever the way there.
+// Cut into 3 or 6 parts, a blade still bends as before, under a force that grows slowly. One integration: its end is an equilibrium, whatever the path to it.
 TEST(SlowFlexures, BladesInARowAreTheElasticaThatTheyAreCutFrom) {
   const double L = 0.3, EI = bending_stiffness(0.02, 1e-3);
   for (const auto& [n, end] : {std::pair{3, 0.9}, {6, 1.3}}) {
@@ -218,7 +218,7 @@ TEST(SlowFlexures, BladesInARowAreTheElasticaThatTheyAreCutFrom) {
   }
 }
 
-// Under a load that bends them by a quarter of a right angle, they start there.
+// Under a load that bends them by a quarter of a right angle, they start bent.
 TEST(SlowFlexures, BladesInARowStartBent) {
   const double L = 0.3, EI = bending_stiffness(0.02, 1e-3);
   const Elastica elastica(0.4);
@@ -230,7 +230,7 @@ TEST(SlowFlexures, BladesInARowStartBent) {
   }
 }
 
-// Weightless 24 EI/L^3 for both blades; the weight that hangs in them makes them stiffer.
+// Without gravity 24 EI/L^3 for both blades; the weight that hangs on them makes them stiffer.
 TEST(SlowFlexures, VibrateAsTheirStiffnessSays) {
   const double floating = check_model(stage("0", "gravity = [0, 0]")).frequencies.modes.front().frequency;
   EXPECT_NEAR(floating, std::sqrt(24 * kBladeEI / (kL * kL * kL) / 2), 1e-4 * floating);
@@ -256,7 +256,7 @@ TEST(SlowFlexures, MoveWithinTheEnergyAccountAndInRelativeCoordinates) {
   }
 }
 
-// A run much shorter than the pivot's period of 0.8 s: the pivot is soft there, and a start that lets it go with the motion asks for moments that no pivot has.
+// A run much shorter than the pivot's period of 0.8 s: the pivot is soft there, and a start that lets it follow the motion requires moments that no pivot has.
 TEST(SlowFlexures, StartInRunsShorterThanTheirPeriod) {
   Model model = read_model(PINTLE_SOURCE_DIR "/mechanisms/cross_spring_pendulum.toml");
   model.simulate.duration = 0.02;
@@ -265,7 +265,7 @@ TEST(SlowFlexures, StartInRunsShorterThanTheirPeriod) {
   EXPECT_NEAR(value(run, 0, "joint.pivot.on_pendulum.fy[world]"), 0.5 * kStandardGravity, 1e-6 * 0.5 * kStandardGravity);
 }
 
-// A straight strut that is pressed beyond Euler's load: where no equilibrium is left the run says so.
+// A straight strut pressed beyond Euler's load: the run says where no equilibrium is left.
 TEST(SlowFlexures, SayWhereABladeSnaps) {
   const double euler = 4 * kPi * kPi * kBladeEI / (kL * kL);
   const Trajectory run = simulate(parse_model(fmt::format(R"toml(
@@ -302,7 +302,7 @@ force = ["{:.17g}*t", 0]
   for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_EQ(value(run, i, "joint.strut.equilibrium"), run.at(i, 0) < 0.502) << run.at(i, 0);
 }
 
-// The bending of a blade couples its end's displacement and its angle: without that the first mode of check was twice as fast.
+// The bending of a blade couples displacement and angle of its end: without that coupling the first mode of check was twice as fast.
 TEST(Flexures, AMassOnABladeVibratesAsOnACantilever) {
   constexpr double kLength = 2e-3, kWidth = 0.5e-3, kThickness = 1e-5, kModulus = 160e9, kMass = 1e-6;
   const double EI = kModulus * kWidth * std::pow(kThickness, 3) / 12, omega = std::sqrt(3 * EI / std::pow(kLength, 3) / kMass);

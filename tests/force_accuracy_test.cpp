@@ -1,5 +1,4 @@
-// What a run promises: every joint force within the tolerance of its peak, against a run a hundred times finer; and an error
-// estimate of the right size.
+// The promise of a run: every joint force within the tolerance of its peak, against a run a hundred times finer; and an error estimate of the right size.
 #include <gtest/gtest.h>
 
 #include "base/constants.h"
@@ -9,7 +8,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kUnloaded = 1e-4;  // of the mechanism's largest force: what a joint is measured by at least
+constexpr double kUnloaded = 1e-4;  // lower limit, as a fraction of the mechanism's largest force, on the force by which a joint is measured
 constexpr double kRounding = 1e-10;
 
 struct TimedMechanism {
@@ -17,14 +16,14 @@ struct TimedMechanism {
   double duration;
   double least = 1.0 / 3;  // estimate over error
 };
-// `duration`: shortened where the mechanism repeats itself or takes long. The gear train's passes take nearly the same steps at
-// any tolerance, so that their difference says little; its errors are far below what was asked for.
+// `duration` is shortened where the mechanism repeats itself or takes long. The gear train's passes take nearly the same steps at any tolerance, so that their
+// difference says little; its errors are far below what was asked for.
 constexpr TimedMechanism kMechanismsInPlane[] = {{"pendulum", 2},       {"weld_beam", 0.5},     {"rope_pendulum", 0.5}, {"trammel", 1},
                            {"four_bar", 0.62},    {"inverted_slider_crank", 0.31}, {"gear_train", 0.3, 0.1},    {"crane_bushing", 0.5},
                            {"slider_crank", 0.1}, {"quick_return", 0.5}};
 
 struct JointDifferences {
-  double force = 0, estimate = 0;  // over the joints' peaks
+  double force = 0, estimate = 0;  // relative to the joints' peaks
   std::string joint;
 };
 
@@ -41,7 +40,7 @@ double peak_couple(const Trajectory& run, const std::string& joint) {
 
 std::string column_of(const LoadSummary& joint) { return "joint." + joint.name + ".on_" + joint.second_body; }
 
-// Largest differences over the joints, each over its peak force or couple, as the program measures its own error.
+// Largest differences over the joints, each relative to its peak force or couple, as the program measures its own error.
 JointDifferences joint_differences(const Trajectory& run, const Trajectory& fine, const Model& model) {
   double force = 0, moment = 0, radius = 0;
   for (const Body& body : model.bodies) radius = std::max(radius, std::sqrt(body.inertia / body.mass));
@@ -96,8 +95,8 @@ TEST_P(ForceAccuracy, IsWithinTheToleranceAndWellEstimated) {
 
 INSTANTIATE_TEST_SUITE_P(Collection, ForceAccuracy, testing::ValuesIn(kMechanismsInPlane), [](const auto& c) { return std::string(c.param.name); });
 
-// A long trial step carries the compressor's piston past its ceiling, where the gas law has no value: such a step is refused,
-// and not taken for one that begins on a kink.
+// A long trial step carries the compressor's piston past its ceiling, where the gas law has no value: such a step is rejected, and not taken for one that
+// begins on a kink.
 TEST(ForceAccuracyOfTheCompressor, AStepWithoutAValueIsRefused) {
   Model model = reference::mechanism("slider_crank");
   model.simulate.duration = 0.1;
@@ -117,7 +116,7 @@ TEST(ForceAccuracyOfTheCompressor, RunsToTheEndAtARoughTolerance) {
   EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
 }
 
-// Forces that are nothing but rounding are not measured by themselves.
+// Forces that are pure roundoff are not measured relative to themselves.
 TEST(ForceAccuracyOfNothing, BodiesOnACommonPinFallFreely) {
   const char* falling = R"toml(
 format = 1
@@ -148,7 +147,7 @@ between = ["a.p", "b.p"]
   }
 }
 
-// Bars of a symmetric truss load its rail with nothing: what is left is the rounding of their places.
+// The bars of a symmetric truss put no load on its rail: what is left is the roundoff of their positions.
 TEST(ForceAccuracyOfNothing, ARailOfASymmetricTrussKnowsNothingOfItsForce) {
   const Trajectory run = reference::completed(reference::mechanism("snap_through_truss"));
   for (const LoadSummary& joint : run.joints) {

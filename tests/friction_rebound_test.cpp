@@ -1,4 +1,4 @@
-// Surfaces that stick on a spring and break loose because what presses them falls: the spring may be on its way back. theory/joints Eq. (3.23)
+// Surfaces that stick on a spring and break loose because the force that presses them falls: the spring may be on its way back. theory/joints Eq. (3.23)
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 // Friction that drives would let the account run open, and what moves.
 void expect_closed_account(const Trajectory& run) { EXPECT_LT(run.energy.drift, 1e-6 * run.energy.kinetic_peak); }
 
-// It swings on the spring that holds it, with 5 N*s/m.
+// It swings on the stiction spring that holds it, with 5 N*s/m.
 TEST(FrictionRebound, ASlideThatIsUnloadedOnItsWayBackIsHeldAgain) {
   const Trajectory run = reference::completed(reference::test_model("slide_unloaded_while_stuck"));
   expect_closed_account(run);
@@ -26,7 +26,7 @@ TEST(FrictionRebound, ACartThatSettlesOnItsTyresIsNotDriven) {
   for (std::size_t row = 0; row < run.n_rows(); ++row) ASSERT_LT(std::abs(reference::value(run, row, "joint.rr.slip")), 0.3) << run.at(row, 0);
 }
 
-// Its friction is that of the teeth that touch: with springs that had stuck where none does, the motor gave 1700 N m.
+// Its friction is that of the teeth that touch: with stuck springs at teeth that did not touch, the motor gave 1700 N m.
 TEST(FrictionRebound, TeethThatDoNotTouchDoNotStick) {
   const Trajectory run = reference::completed(reference::test_model("rack_with_play_that_rubs"));
   for (std::size_t row = 0; row < run.n_rows(); ++row)
@@ -34,14 +34,14 @@ TEST(FrictionRebound, TeethThatDoNotTouchDoNotStick) {
   EXPECT_NEAR(std::abs(run.motors[0].peak_effort), 4.12, 0.05);
 }
 
-// A trial step that goes astray passes the bends of its detent a million times: that says nothing of where the first one is.
+// A trial step that goes astray passes the bends of its detent a million times: that is no guide to where the first one is.
 TEST(FrictionRebound, ABladeComesToRestBesideItsDetent) {
   const Trajectory run = reference::completed(reference::test_model("garden_shears"));
   EXPECT_EQ(reference::value(run, run.n_rows() - 1, "joint.O.stuck"), 1);
   EXPECT_NEAR(reference::value(run, run.n_rows() - 1, "joint.O.angle"), -std::acos(-1) / 6, 2e-3);
 }
 
-// At a speed that rounding has left, the sign of the rate is one or the other in each iteration: no step is short enough for Newton's method.
+// At a speed that is only roundoff, the sign of the rate differs between iterations: no step is short enough for Newton's method.
 TEST(FrictionRebound, ATorqueThatJumpsWithTheRateComesToRest) {
   for (const char* friction : {"coulomb", "lugre"})
     for (const double tolerance : {1e-3, 1e-5}) {

@@ -22,7 +22,7 @@ bool says(const Trajectory& run, const std::string& what) {
   return std::any_of(run.notes.begin(), run.notes.end(), [&what](const std::string& note) { return note.find(what) != std::string::npos; });
 }
 
-// Of a body's x and its rate from the table's columns x and `rate`, row by row.
+// Largest differences, row by row, of a body's x and its rate from the table's columns x and `rate`.
 std::pair<double, double> largest_differences(const Trajectory& run, const std::string& body, const reference::Table& table, const std::string& rate) {
   EXPECT_EQ(run.n_rows(), table.rows.size());
   double x = 0, v = 0;
@@ -65,7 +65,7 @@ struct StickSlip {
     const double stopped = V * (first + cycle * period + slips) - kinetic * N / K + d;
     return {stopped, 0, K * (V * t - stopped)};
   }
-  /// Just stopped: on its stick spring of 1e8 N/m it swings to rest, with the damper's 1500 / s.
+  /// Just stopped: it rings down on its stick spring of 1e8 N/m, at the damper's 1500 / s.
   bool swings(double t) const {
     const double s = std::fmod(t - first + period, period) - slips;
     return s >= 0 && s < 0.02;
@@ -91,7 +91,7 @@ TEST(Coulomb, PulledMassSticksAndSlipsAsInClosedForm) {
   }
 }
 
-// A block on an incline of tan A = mu (1 + excess), by the direction of gravity. A hand that holds it lets go within a second.
+// A block on an incline of tan A = mu (1 + excess), by the direction of gravity. The hand that holds it releases it within a second.
 Model inclined(double excess) {
   return parse_model(R"toml(
 format = 1
@@ -125,7 +125,7 @@ force = ["pull*smoothstep(0, 1 s, t)", 0]
 )toml", "inclined.toml", {"parameters.excess=" + std::to_string(excess), "gravity=[0, \"-weight*cos(angle)\"]"});
 }
 
-// 1e-6 below the friction angle it stays for 1000 s, on the stretch of its spring; 1e-6 above it slides off with mu g cos A times 1e-6.
+// 1e-6 below the friction angle it stays for 1000 s, on the stretch of its spring; 1e-6 above it slides off with an acceleration of mu g cos A times 1e-6.
 TEST(Coulomb, HoldsUpToTheFrictionAngle) {
   const Trajectory held = completed(inclined(-1e-6));
   const double angle = std::atan(0.15), pull = 2 * 9.81 * std::sin(angle), a = 1e-6 * 0.15 * 9.81 * std::cos(angle);
@@ -141,7 +141,7 @@ TEST(Coulomb, HoldsUpToTheFrictionAngle) {
   EXPECT_FALSE(says(slid, "jammed"));
 }
 
-// The belt is stiff in its rollers and its drive: with a drive of 1e9 N/m the block breaks away so much later that x is off by 6e-7 m.
+// Rollers and drive of the belt are stiff: with a drive of 1e9 N/m the block breaks away so much later that x is off by 6e-7 m.
 constexpr const char* kConveyor = R"toml(
 format = 1
 name = "Block on a conveyor belt"
@@ -206,7 +206,7 @@ TEST(Stribeck, BlockOnAConveyorBeltMovesAsPublished) {
 // From 1 s to 2 s.
 double speed_gained(const Trajectory& run, const std::string& rate) { return at_end(run, rate) - reference::value(run, reference::row_at(run, 1), rate); }
 
-// From the time when the load is whole it moves no farther than bristles bend, mu / s_0, and comes to rest.
+// Once the whole load acts it moves no farther than bristles bend, mu / s_0, and comes to rest.
 void expect_locked(const Trajectory& run, const std::string& column, double time, double mu) {
   const std::size_t loaded = reference::row_at(run, time);
   const auto slide = [&](std::size_t i) { return reference::value(run, i, column); };
@@ -214,7 +214,7 @@ void expect_locked(const Trajectory& run, const std::string& column, double time
   EXPECT_LT(std::abs(at_end(run, column) - slide(reference::row_at(run, 1.5))), 1e-3 * mu / 1e5);
 }
 
-// A wedge on a floor under a follower that moves up and down without friction; W presses the follower from 0 to 0.5 s.
+// A wedge on a floor under a follower that moves up and down without friction; W presses the follower, rising from 0 to 0.5 s.
 Model wedge(double angle, double mu, double mass) {
   return parse_model(R"toml(
 format = 1
@@ -267,8 +267,8 @@ force = [0, "-1000 N*smoothstep(0, 0.5 s, t)"]
 )toml", "wedge.toml", {"parameters.angle=" + std::to_string(angle), "parameters.mu=" + std::to_string(mu), "parameters.mass=" + std::to_string(mass)});
 }
 
-// Pressed on a wedge of angle A, with the friction angle phi on floor and face, it drives the wedge out when A > 2 phi. A heavy wedge goes so
-// little way that the press beside the middle of the floor's joint does not tilt it.
+// Pressed on a wedge of angle A, with the friction angle phi on floor and face, the follower drives the wedge out when A > 2 phi. A heavy wedge moves so little
+// that the press off the middle of the floor's joint does not tilt it.
 //   R (cos A + mu sin A) = W - m_f a tan A,     m_w a = R (sin A - mu cos A) - mu R (cos A + mu sin A)
 TEST(Jamming, WedgeLocksBelowTwiceTheFrictionAngle) {
   const double mu = 0.15, phi = std::atan(mu), hair = 0.1 * M_PI / 180;
@@ -288,7 +288,7 @@ TEST(Jamming, WedgeLocksBelowTwiceTheFrictionAngle) {
   }
 }
 
-// A slider pushed along its guide by a force P at 200 mm from it.
+// A slider pushed along its guide by a force P at a distance of 200 mm from it.
 Model pushed_block(double guide, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides{"parameters.guide=" + std::to_string(guide)};
   overrides.insert(overrides.end(), more.begin(), more.end());
@@ -323,14 +323,14 @@ force = ["100 N*smoothstep(0, 0.5 s, t)", 0]
 // Its moment P h presses both edges with P h / L: the guide jams where it is shorter than 2 mu h, else a = P (1 - 2 mu h / L) / m.
 TEST(Jamming, ShortGuideLocksASliderThatIsPushedBesideIt) {
   const double critical = 2 * 0.15 * 0.2;
-  const Trajectory jammed = completed(pushed_block(0.999 * critical, {"simulate.tolerance=1e-8"}));  // bristles near their limit creep with every error of a step
+  const Trajectory jammed = completed(pushed_block(0.999 * critical, {"simulate.tolerance=1e-8"}));  // bristles near their limit creep with each error of a step
   expect_locked(jammed, "joint.guide.slide", 0.5, 0.15);
   EXPECT_NEAR(at_end(jammed, "joint.guide.friction"), -100, 1e-5 * 100);
   const Trajectory moved = completed(pushed_block(1.001 * critical));
   EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 1 / 1.001), 1e-5 * 0.1);
 }
 
-// The run says so, unless the guide is long enough.
+// The run says that it jams, unless the guide is long enough.
 TEST(Jamming, IsSaid) {
   for (const char* word : {"coulomb", "lugre"}) {
     SCOPED_TRACE(word);
@@ -407,8 +407,8 @@ joint = "O2"
 speed = 1
 )toml";
 
-// The force between two pins of the coupler is tangent to the circles of radius mu r about both, on the sides that the pins' slips say;
-// it is (F, phi) on the rocker. With s = the sign of each pin's slip:
+// The force between the two pins of the coupler is tangent to the circles of radius mu r about both, on the sides given by the pins' slips; it is (F, phi) on
+// the rocker. With s = the sign of each pin's slip:
 //   b sin(phi - theta_3) = mu r (s_B - s_A),   F (c sin(phi - theta_4) - mu r (s_B + s_4)) = -T,   T_2 = F (a sin(phi - theta_2) + mu r (s_2 - s_A))
 TEST(FrictionCircles, FourBarCarriesItsLoadAlongTheirTangents) {
   const double a = 0.1, b = 0.5, c = 0.3, circle = 0.2 * 0.02, T = -10;
@@ -445,8 +445,8 @@ TEST(FrictionCircles, FourBarCarriesItsLoadAlongTheirTangents) {
   }
 }
 
-// A load on a rope hangs from a drum that a rubbing pin holds: it does not begin by sinking into the friction, and no joint rings. A coefficient that is
-// stated alone is that of rest, too. What the pin cannot hold turns from the start, against its whole friction.
+// A load on a rope hangs from a drum that a rubbing pin holds: it does not begin by sinking into the friction, and no joint rings. A coefficient that is stated
+// alone also holds at rest. A load that the pin cannot hold turns it from the start, against its full friction.
 TEST(Stiction, CarriesItsLoadFromTheStart) {
   const auto drum = [](double mass) {
     return parse_model(fmt::format(R"toml(

@@ -1,4 +1,4 @@
-// What the pressure angle of teeth does in gears and racks.
+// The effect of the pressure angle of teeth in gears and racks.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void expect_teeth_push_apart(const Trajectory& run, std::size_t row, double accu
   }
 }
 
-// What the bearings of the shafts add to the weights is what the teeth push with.
+// The bearings of the shafts carry the weights and the push of the teeth.
 void expect_bearings_carry_it(const Trajectory& run, std::size_t row, double accuracy) {
   const auto on = [&](const char* joint, const char* body, const char* axis) { return value(run, row, std::string("joint.") + joint + ".on_" + body + ".f" + axis + "[world]"); };
   const double size = std::abs(on("rack", "gear2", "y"));
@@ -58,7 +58,7 @@ TEST(Gears, TeethPushApartByTheirPressureAngle) {
   EXPECT_NEAR(value(without, 200, "joint.O1.on_gear1.fx[world]"), 0, 1e-3 * value(run, 200, "joint.mesh.radial_force"));
 }
 
-// The same forces from all equations and methods that have the joints as they are, and from those that have ideal ones.
+// The same forces from all equations and methods with compliant joints, and from those with ideal ones.
 TEST(Gears, TeethPushApartInEveryFormulation) {
   for (const std::vector<std::string>& keys : {std::vector<std::string>{"equations=\"relative\""}, {"method=\"dopri5\""}, {"method=\"ode15s\""}, {"method=\"generalised_alpha\""}, {"equations=\"ideal\""},
                                                {"equations=\"penalty\""}, {"equations=\"augmented_lagrangian\""}}) {
@@ -73,8 +73,8 @@ TEST(Gears, TeethPushApartInEveryFormulation) {
   }
 }
 
-// A sun of 40 mm turns a planet of 20 mm that rolls in a fixed ring of 80 mm, on a carrier of 60 mm. The sun pushes the planet outwards and the ring
-// pushes it inwards; the carrier's pin carries the difference and what the planet needs on its way round.
+// A sun of 40 mm turns a planet of 20 mm that rolls in a fixed ring of 80 mm, on a carrier of 60 mm. The sun pushes the planet outwards and the ring pushes it
+// inwards; the carrier's pin carries the difference and the force that keeps the planet on its circle.
 constexpr const char* kPlanetary = R"toml(
 format = 1
 gravity = [0, 0]
@@ -154,7 +154,7 @@ TEST(Gears, ARingPushesItsPlanetInwards) {
     }
 }
 
-// A gear that floats between two others at a right angle: what the teeth push with changes what they carry, whatever the pressure angle.
+// A gear that floats between two others at a right angle: the push of the teeth changes the load that they carry, whatever the pressure angle.
 TEST(Gears, AFloatingGearIsCarriedByItsTeeth) {
   const auto carried = [](const char* equations, double degrees) {
     const Trajectory run = completed(parse_model(fmt::format(fmt::runtime(R"toml(

@@ -1,6 +1,5 @@
-// A compressor on soft joints: at the top its gas force is larger on the way up than on the way down, since the soft joints have
-// not let the piston come all the way, and so the piston is held there for a while. Against the explicit method, which is given
-// a ramp in the model itself.
+// A compressor on soft joints: at the top its gas force is larger on the way up than on the way down, since the soft joints have kept the piston from coming
+// all the way, and so the piston is held there for a while. Compared with the explicit method, which is given a ramp in the model itself.
 #include <gtest/gtest.h>
 
 #include "system/sample_systems_for_tests.h"
@@ -23,7 +22,7 @@ Motor& gas_of(Model& model) {
   return *std::find_if(model.motors.begin(), model.motors.end(), [](const Motor& motor) { return motor.name == "gas"; });
 }
 
-// The model's own numbers, with a share of the way up in place of the jump at rate 0.
+// The model's own numbers, with a ramp from the force of the way down to that of the way up in place of the jump at rate 0.
 Expression gas_with_ramp() {
   const std::string area = "0.0028274333882308137", ceiling = "0.133", in = "1e5", out = "7e5";
   const std::string up = "min(" + out + ", " + in + "*(0.065/(" + ceiling + " - slide))^1.3)";
@@ -32,7 +31,7 @@ Expression gas_with_ramp() {
   return sample::expression("-" + area + "*(" + down + " + " + share + "*(" + up + " - " + down + ") - " + in + ")", {"slide", "rate"});
 }
 
-// At every row, to a share of the largest peak.
+// At every row, to a fraction `share` of the largest peak.
 void expect_same_forces(const Trajectory& run, const Trajectory& other, double share) {
   ASSERT_EQ(run.n_rows(), other.n_rows());
   double peak = 0;
@@ -57,7 +56,7 @@ TEST(HeldGasForce, ASoftCompressorRunsThroughItsDeadCentre) {
   expect_same_forces(held, ramp, kRampWidth);
 }
 
-// While the piston is held, forces are those of the tolerance, at the ends of steps of any length, too.
+// While the piston is held, forces keep the tolerance, also at the ends of steps of any length.
 TEST(HeldGasForce, EveryToleranceIsMetInAFewPasses) {
   Model model = soft_compressor();
   model.simulate.tolerance = 1e-6;
@@ -67,21 +66,21 @@ TEST(HeldGasForce, EveryToleranceIsMetInAFewPasses) {
     model.simulate.tolerance = tolerance;
     const Trajectory run = simulate(model);
     EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
-    EXPECT_LE(run.counters.passes, 6) << tolerance;  // what the ramp lags behind counts in full
+    EXPECT_LE(run.counters.passes, 6) << tolerance;  // the lag of the ramp counts in full
     for (std::size_t j = 0; j < run.joints.size(); ++j) EXPECT_NEAR(run.joints[j].peak, fine.joints[j].peak, tolerance * fine.joints[j].peak) << tolerance;
     expect_same_forces(fine, run, tolerance);
   }
 }
 
-// The energy account knows the effort of a motor that is held.
+// The energy account includes the effort of a motor that is held.
 TEST(HeldGasForce, TheAccountCloses) {
   const Trajectory run = simulate(soft_compressor());
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
   EXPECT_LT(std::abs(run.energy.drift), 1e-5 * run.energy.kinetic_peak);
 }
 
-// A ramp that grew with 1/tolerance for the rounding of velocities would let a shaper's ram creep where it is held: the smaller
-// the tolerance, the further. What its ramp lags behind is stated, and where finer passes do not make it small enough the run says so.
+// A ramp that widened with 1/tolerance for the roundoff of velocities would let a shaper's ram creep where it is held: the smaller the tolerance, the further.
+// The lag of the ramp is stated, and where finer passes do not make it small enough the run says so.
 TEST(HeldGasForce, AHeldRamStaysWhereItIsAtATightTolerance) {
   const auto run = [](double tolerance) {
     Model model = reference::test_model("shaper_on_stiff_joints");
@@ -105,8 +104,8 @@ TEST(HeldGasForce, AHeldRamStaysWhereItIsAtATightTolerance) {
   EXPECT_LT(apart, stated(loose) + stated(tight));
 }
 
-// A bang-bang controller whose pin rings while it slides. The force at 0.2832 s is that of two integrations of the same pin written for this, one of which solves for the torque
-// that keeps the switching function at zero, by A. F. Filippov's definition, with steps of 0.4 and 0.2 us, while the other switches at every step: 21.928 N.
+// A bang-bang controller whose pin rings while it slides. The force at 0.2832 s, 21.928 N, is that of two integrations of the same pin written for this test. One solves for the
+// torque that keeps the switching function at zero, by A. F. Filippov's definition, with steps of 0.4 and 0.2 us; the other switches at every step.
 TEST(HeldGasForce, WhatARelayLagsBehindIsStated) {
   for (const double tolerance : {1e-2, 1e-3, 1e-5}) {
     Model model = reference::test_model("relay_on_a_ringing_pin");

@@ -1,5 +1,4 @@
-// Ideal joints with multipliers, against closed forms and one-coordinate solutions; what is said of redundant constraints and of
-// singular positions.
+// Ideal joints with multipliers, against closed forms and one-coordinate solutions; messages about redundant constraints and singular positions.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -92,7 +91,7 @@ TEST(Ideal, StiffJointsTendToIt) {
   }
 }
 
-// Two four-bars in a row pass through positions where all bars are in line; the exact motion goes straight on.
+// Two four-bars in a row pass through positions where all bars are in line; the exact motion passes straight through.
 TEST(Ideal, GoesThroughSingularPositionsAndNamesThem) {
   const Trajectory run = simulate(reference::mechanism("n_four_bar_2", {"simulate.equations=\"ideal\"", "simulate.duration=4"}));
   EXPECT_EQ(run.outcome, Outcome::kToleranceNotMet);  // the weight of the bars pushes them across the branch
@@ -119,7 +118,7 @@ TEST(Ideal, GoesThroughSingularPositionsAndNamesThem) {
     EXPECT_NE(note.find(" along x"), std::string::npos) << note;  // the bars' own direction
   }
   EXPECT_GE(named, 3);
-  // Rounding on the way through a singular position decides: measured 7e-10 to 3e-8.
+  // Roundoff on the way through a singular position decides the drift: measured 7e-10 to 3e-8.
   EXPECT_LT(run.energy.drift, 1e-7 * run.energy.kinetic_peak);
 }
 
@@ -137,14 +136,14 @@ TEST(Ideal, UniqueReactionsAreCalledUnique) {
   for (const LoadSummary& joint : ideal_run("four_bar").joints) EXPECT_TRUE(joint.unique) << joint.name;
 }
 
-// Velocities that do not fit together are made to fit by an impulse in the joints, which takes kinetic energy.
+// Inconsistent velocities are made consistent by an impulse in the joints, which takes kinetic energy.
 TEST(Ideal, InconsistentVelocitiesAreAnImpulse) {
   const Trajectory run = ideal_run("four_bar", {"simulate.start=\"raw\""});
   EXPECT_TRUE(mentions(run, "an impulse"));
   EXPECT_EQ(run.outcome, Outcome::kCompleted);
 }
 
-// A block in a guide, pushed by a force that jumps where its speed changes its sign.
+// A block in a guide, pushed by a force that jumps where its speed changes sign.
 Trajectory push(const std::string& force, const std::string& speed) {
   const Trajectory run = simulate(parse_model(R"toml(format = 1
 gravity = [0, 0]
@@ -178,7 +177,7 @@ TEST(Ideal, GoesOverJumpsOfAForce) {
   EXPECT_NEAR(value(off, off.n_rows() - 1, "body.block.x"), 1, 1e-6);
 }
 
-// An arm on a motor; `more` keys of its joint come last.
+// An arm on a motor; `more` are further keys of its joint, placed last.
 Model driven_arm(const std::string& motor, const std::string& equations, const std::string& spin = "0", const std::string& more = "", const std::string& duration = "1 s") {
   return parse_model(fmt::format(R"toml(
 format = 1
@@ -213,7 +212,7 @@ TEST(Ideal, MotorsStartWithAnAcceleration) {
   }
 }
 
-// A speed may not: ideal joints would need an infinite force. Servos take it, and their bodies follow.
+// A speed may not: ideal joints would need an infinite force. Servos tolerate it, and their bodies follow.
 TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
   for (const char* motor : {"position = \"if(t < 0.5 s, 1 rad/s*t, 0.5 rad)\"", "speed = \"if(t < 0.5 s, 1 rad/s, 0 rad/s)\""}) {
     const Trajectory failed = simulate(driven_arm(motor, "ideal", "1"));
@@ -231,7 +230,8 @@ TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
   EXPECT_NEAR(value(step, step.n_rows() - 1, "body.a.angle"), 0.1, 1e-4);
 }
 
-// At a kink of its command a motor has the speed that comes: at the start it is the assembled one, later, on a double number of time, the one after it.
+// At a kink of its command a motor has the speed after the kink: at the start that of assembly; later, if the kink falls exactly on a floating-point time, the
+// next one.
 TEST(Ideal, AMotorThatStartsOnAKinkHasTheSpeedBehindIt) {
   for (const char* motor : {"position = \"abs(sin(4*t))\"", "position = \"abs(sin(-4*t))\""}) {
     for (const char* equations : {"ideal", "newtonian", "relative"}) {
@@ -244,7 +244,7 @@ TEST(Ideal, AMotorThatStartsOnAKinkHasTheSpeedBehindIt) {
   EXPECT_NE(failed.message.find("motor m is to change its speed by 4 rad/s instantly at t = 0.5 s"), std::string::npos) << failed.message;
 }
 
-// What balances a load that no motion shows has its peak and mean, whatever the steps of the motion are: an arm that a motor holds, by its pin.
+// Peak and mean of a force that balances a load without any motion do not depend on the steps of the motion: the pin of an arm that a motor holds.
 TEST(Ideal, PeaksFollowLoadsWithinAStep) {
   struct Case {
     const char* load;
@@ -257,7 +257,7 @@ TEST(Ideal, PeaksFollowLoadsWithinAStep) {
       Model model = driven_arm("speed = 0", equations, "0", fmt::format("ideal = true\n[force.F]\non = \"a.T\"\nforce = [0, \"{}\"]", at.load));
       model.gravity = {};
       const Trajectory run = completed(model);
-      const double gives_way = std::string(equations) == "relative" ? 2e-3 : 1e-4;  // the servo does: 100.15 N of the short load, and 100.17 N on free bodies
+      const double gives_way = std::string(equations) == "relative" ? 2e-3 : 1e-4;  // the servo deflects: 100.15 N of the short load, and 100.17 N on free bodies
       EXPECT_NEAR(run.joints[0].peak, at.peak, gives_way * at.peak) << at.load << ", " << equations;
       EXPECT_NEAR(run.joints[0].rms, at.rms, 1e-3 * at.rms) << at.load << ", " << equations;
     }
@@ -268,7 +268,7 @@ TEST(Ideal, CompressorIsThatOfStiffJoints) {
   const Trajectory ideal = ideal_run("slider_crank"), stiff = simulate(reference::mechanism("slider_crank", {}));
   ASSERT_EQ(ideal.n_rows(), stiff.n_rows());
   for (std::size_t j = 0; j < ideal.joints.size(); ++j)
-    EXPECT_NEAR(ideal.joints[j].rms, stiff.joints[j].rms, 1e-2 * stiff.joints[j].rms) << ideal.joints[j].name;  // at its peak the gas jumps, and stiff joints ring
+    EXPECT_NEAR(ideal.joints[j].rms, stiff.joints[j].rms, 1e-2 * stiff.joints[j].rms) << ideal.joints[j].name;  // the gas force jumps at its peak, and stiff joints ring
   const double speed = value(stiff, stiff.n_rows() - 1, "body.crank.spin");
   EXPECT_NEAR(value(ideal, ideal.n_rows() - 1, "body.crank.spin"), speed, 1e-3 * speed);
 }
@@ -277,7 +277,7 @@ TEST(Ideal, OtherMethodsAreRefusedWhereTheyStand) {
   EXPECT_THROW(reference::mechanism("four_bar", {"simulate.equations=\"ideal\"", "simulate.method=\"radau\""}), InputError);
 }
 
-// Bushings and bearings stay force laws beside ideal joints: they begin with the deflections that carry their loads, and the run says which they are.
+// Bushings and bearings remain force laws next to ideal joints: they begin with the deflections that carry their loads, and the run names them.
 TEST(Ideal, LawsThatStayBeginLoaded) {
   Model beam = reference::test_model("beam_on_three_bushings"), rotor = reference::test_model("rotor_on_balls");
   beam.simulate.equations = rotor.simulate.equations = Equations::kIdeal;
@@ -291,7 +291,7 @@ TEST(Ideal, LawsThatStayBeginLoaded) {
   EXPECT_NE(turning.notes.front().find("joints that remain force laws among ideal joints: brg"), std::string::npos) << turning.notes.front();
 }
 
-// They also begin with the rates that go with the motion: a bushing in a slider-crank at speed carries from its first row on what it carries one turn later.
+// They also begin with the rates of the slow motion: from its first row on, a bushing in a slider-crank at speed carries what it carries one turn later.
 TEST(Ideal, LawsThatStayBeginOnTheirSlowMotion) {
   Model model = reference::test_model("slider_crank_with_bushing");
   model.simulate.equations = Equations::kIdeal;
@@ -301,7 +301,7 @@ TEST(Ideal, LawsThatStayBeginOnTheirSlowMotion) {
     EXPECT_NEAR(reference::value(run, row, "joint.B.on_pis.fx[world]"), reference::value(run, row + turn, "joint.B.on_pis.fx[world]"), 0.05) << row;
 }
 
-// A contact damps by the speed at which it was touched, which these equations do not keep: no result instead of a wrong one.
+// A contact's damping depends on the speed at which it was touched, which these equations do not keep: no result instead of a wrong one.
 TEST(Ideal, LawsThatRememberAreRefused) {
   Model model = reference::mechanism("hopper");
   for (const Equations equations : {Equations::kIdeal, Equations::kPenalty}) {

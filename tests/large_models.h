@@ -1,5 +1,4 @@
-// Models of any size, to see how cost grows with it: a chain, a tree, a ladder of loops and a lattice. All bars are uniform and
-// slender, 1 m and 1 kg.
+// Models of any size, to show how cost grows with size: a chain, a tree, a ladder of loops and a lattice. All bars are uniform and slender, 1 m and 1 kg.
 #pragma once
 
 #include <array>
@@ -24,7 +23,7 @@ class LargeModel {
   }
 
   void add_ground(const std::string& marker, double x, double y, double angle = 0) { model_.ground.push_back({marker, {x, y}, angle}); }
-  /// Its markers are A and B, half a metre either way of the middle.
+  /// Its markers are A and B, half a metre to either side of the middle.
   Body& add_bar(const std::string& name, double x, double y, double angle) {
     Body bar;
     bar.name = name;
@@ -51,7 +50,7 @@ class LargeModel {
   double stiffness_;
 };
 
-/// n level bars in a row, the first on a ground pin, let go.
+/// n level bars in a row, the first on a ground pin, released from rest.
 inline Model chain_model(int n) {
   LargeModel out("Chain of " + std::to_string(n) + " bars");
   out.add_ground("O", 0, 0);
@@ -62,7 +61,7 @@ inline Model chain_model(int n) {
   return std::move(out).model();
 }
 
-/// n bars, bar i on the end of bar (i - 1) / 2, hanging a little askew. The root carries all, hence the stiffness.
+/// n bars, bar i on the end of bar (i - 1) / 2, hanging slightly askew. The root carries all of them, hence the stiffness.
 inline Model tree_model(int n) {
   LargeModel out("Tree of " + std::to_string(n) + " bars", 1e10);
   out.add_ground("O", 0, 0);
@@ -101,7 +100,7 @@ inline Model ladder_model(int n) {
   return std::move(out).model();
 }
 
-/// n x n parallelograms of pinned bars, the lower edge on the ground. At each node its bars are pinned to one of them.
+/// n x n parallelograms of pinned bars, the lower edge on the ground. At each node all bars are pinned to one of them.
 inline Model grid_model(int n) {
   LargeModel out("Lattice of " + std::to_string(n) + " x " + std::to_string(n) + " parallelograms");
   const double slant = 1.4, dx = std::cos(slant), dy = std::sin(slant);

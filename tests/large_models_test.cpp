@@ -1,4 +1,4 @@
-// Mechanisms of thousands of bodies: what is quadratic anywhere on the way makes these too slow to bear.
+// Mechanisms of thousands of bodies: any cost that is quadratic in their number makes these unbearably slow.
 #include "tests/large_models.h"
 
 #include <gtest/gtest.h>
@@ -26,15 +26,15 @@ TEST(LargeModels, AChainWithoutPositionsIsPutTogether) {
   }
 }
 
-// Two hundred loops sway along the ladder slower than they swing: the start must not take that for the joints' giving way.
+// Two hundred loops sway along the ladder more slowly than they swing: the start must not mistake that for a deflection of the joints.
 TEST(LargeModels, ALongLadderStartsWithItsSpeeds) {
   const Model model = ladder_model(200);
   const Assembly start = start_of_run(model);
   for (int i = 0; i < start.system.n_bodies(); ++i) EXPECT_NEAR(start.state.v[i][2], model.bodies[i].spin.value(), 1e-4) << start.system.bodies[i].name;
 }
 
-// Let go level, each bar's end must fall as the next one's beginning does: F_i + 4 F_i+1 + F_i+2 = 0 and 4 F_0 + 2 F_1 = m g, whose
-// solution dies out by sqrt(3) - 2 from pin to pin.
+// In bars released from level, each bar's end must fall as the beginning of the next one does: F_i + 4 F_i+1 + F_i+2 = 0 and 4 F_0 + 2 F_1 = m g, whose
+// solution decays by the factor sqrt(3) - 2 from pin to pin.
 TEST(LargeModels, AChainThatIsLetGoHangsOnItsFirstPins) {
   Model model = chain_model(2000);
   model.simulate.duration = 0.01;

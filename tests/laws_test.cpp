@@ -1,5 +1,4 @@
-// Joint laws in whole mechanisms: published and closed solutions, and laws and joint types that the program does not know, in every
-// method.
+// Joint laws in whole mechanisms: published and closed-form solutions, and, in every method, laws and joint types that the program does not know.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -22,7 +21,7 @@ using reference::at_end;
 using reference::completed;
 using reference::drift;
 
-// A clutch that slips: two states, a border, full matrices that are not symmetric.
+// A clutch that slips: two states, a border, full unsymmetric matrices.
 struct SlippingClutch {
   static constexpr std::string_view kWord = "clutch";
   double k = 0, c = 0, grip = 0, rate = 0;
@@ -53,7 +52,7 @@ void make_clutch(const LawSetting& at, Law& law) {
   law.add(std::make_unique<LawPartOf<SlippingClutch>>(SlippingClutch{k, 2e-3 * k, 0.5 * k, at.number("clutch_rate")}));
 }
 
-// A gap that is no function of the catalog: two points stay on a hyperbola x y = product.
+// A gap function that is not in the catalog: two points stay on a hyperbola x y = product.
 GapFunction hyperbola(const Planar::Vec& z, const double* p) {
   GapFunction g;
   g.gap = (z[0] * z[1] - p[0]) / p[1];
@@ -65,7 +64,7 @@ JointDisplacement make_hyperbola(const Geometry& g) { return FunctionGap{hyperbo
 constexpr std::array<ComponentInfo, 1> kProduct{{{.name = "product"}}};
 constexpr std::array<KeyInfo, 1> kHyperbolaKeys{{{.key = "product", .unit = "m", .required = true, .meaning = "of a test"}}};
 
-// Before the first model is read.
+// To be called before the first model is read.
 void register_laws() {
   static const bool done = [] {
     register_law({.word = "clutch", .meaning = "of a test", .keys = kClutchKeys, .make = make_clutch});
@@ -75,7 +74,7 @@ void register_laws() {
   static_cast<void>(done);
 }
 
-// The parameters of the paper, of a load of 1 N.
+// The parameters of the paper, for a load of 1 N.
 constexpr const char* kBristles = R"toml(friction = "lugre"
 friction_coefficient = 1
 static_friction = 1.5
@@ -85,7 +84,7 @@ bristle_damping = "sqrt(1e5) * 1 s/m"
 viscous_friction = "0.4 s/m"
 )toml";
 
-// Canudas de Wit, Olsson, Astrom, Lischinsky 1995; the table is of a Radau code at 1e-11.
+// Canudas de Wit, Olsson, Astrom, Lischinsky 1995; the table comes from a Radau code at 1e-11.
 TEST(LuGre, PulledMassSticksAndSlipsAsPublished) {
   const auto table = reference::read_table("lugre_stick_slip");
   for (const double tolerance : {1e-5, 1e-7}) {
@@ -101,7 +100,7 @@ TEST(LuGre, PulledMassSticksAndSlipsAsPublished) {
   }
 }
 
-// A block of 2 kg on an incline of so many degrees, mu_s = 0.15, let go.
+// A block of 2 kg, released on an incline of `angle` degrees, mu_s = 0.15.
 Trajectory block_on_incline(const std::string& angle, const std::string& settings) {
   return completed(parse_model(R"toml(
 format = 1
@@ -121,7 +120,7 @@ friction = "lugre"
 )toml", "incline.toml"));
 }
 
-// It holds for 1000 s, by bristles that bend no farther than mu_s / s_0.
+// It holds for 1000 s, with bristles that bend no farther than mu_s / s_0.
 TEST(LuGre, HoldsALoadOnAnIncline) {
   const Trajectory run = block_on_incline("3", "duration = 1000\noutput_step = 10\nmax_step = 2\n");
   const int slide = run.column("joint.slide.slide");
@@ -137,7 +136,7 @@ TEST(LuGre, BristlesStartBentUnderTheirLoad) {
   EXPECT_LT(held.counters.steps, 1500u);
 }
 
-// One turn; the joint forces in every method that steps laws with states.
+// One turn; the joint forces in every method that integrates laws with states.
 TEST(LuGreSlow, FourBarIsTheSameInEveryMethod) {
   Model model = reference::rubbing_four_bar();
   model.simulate.duration = 0.3;
@@ -155,7 +154,7 @@ TEST(LuGreSlow, FourBarIsTheSameInEveryMethod) {
   }
 }
 
-// A pin turned at constant speed under a constant load: the couple is N mu(v) r, and starts so.
+// A pin turned at constant speed under a constant load: the couple is N mu(v) r from the start on.
 TEST(LuGre, SteadySlipCarriesItsCoefficient) {
   Model model = reference::rubbing_four_bar();
   const Trajectory run = completed(model);
@@ -164,7 +163,7 @@ TEST(LuGre, SteadySlipCarriesItsCoefficient) {
     EXPECT_NEAR(run.at(i, friction), -0.1 * 0.01 * std::hypot(run.at(i, force_x), run.at(i, force_y)), 3e-4 * 0.67) << i;
 }
 
-// Over the same turn of the same four-bar without friction.
+// Compared with the same turn of the same four-bar without friction.
 TEST(LuGre, FrictionInAllPinsOfAFourBarCostsLessThanTwiceTheIterations) {
   const Model rubbing = reference::rubbing_four_bar();
   const Trajectory with = completed(rubbing), without = completed(reference::mechanism("four_bar"));
@@ -173,8 +172,8 @@ TEST(LuGre, FrictionInAllPinsOfAFourBarCostsLessThanTwiceTheIterations) {
   EXPECT_EQ(with.counters.newton_failures, 0);
 }
 
-// The bristles of four pins turn round within a few thousandths of a second, and leave a vibration near the tolerance that all passes damp: from crank
-// angles that differ by a hundredth of a degree errors are 0.3 to 5 times those stated. The tolerance is kept.
+// The bristles of four pins reverse within a few thousandths of a second, and leave a vibration near the tolerance that all passes damp: for crank angles that
+// differ by a hundredth of a degree, errors are 0.3 to 5 times those stated. The tolerance is kept.
 TEST(LuGre, FourBarKeepsItsTolerance) {
   Model model = reference::rubbing_four_bar();
   model.simulate.tolerance = 1e-8;
@@ -227,7 +226,7 @@ on = "b.c"
 force = [50, 0]
 )toml";
 
-// x, x', z_1, z_2 are linear equations: the solution by eigenvalues. It starts relaxed at 1 mm, under 50 N from then on.
+// The equations in x, x', z_1, z_2 are linear: solved by eigenvalues. The motion starts relaxed at 1 mm, under 50 N from then on.
 TEST(Maxwell, CreepsAndRelaxesAsTheClosedFormSays) {
   const Trajectory run = completed(parse_model(kRubber, "rubber.toml"));
   const double m = 0.5, k = 2e4, c = 20, F = 50, tau[2] = {5e-3, 0.1}, branch[2] = {2 * k, 0.5 * k};
@@ -416,7 +415,7 @@ TEST(AnyLaw, OfATestRunsLive) {
   EXPECT_NEAR(live.joint_forces()[1][0], at_end(truth, "joint.B.on_lower.fx[world]"), 2e-3 * truth.joints[1].peak);
 }
 
-// A bead on a hyperbola: energy is kept, and the gap's own force law answers with the promised error.
+// A bead on a hyperbola: energy is conserved, and the force law of this gap keeps the promised error.
 TEST(AnyJointType, OfATestRuns) {
   register_laws();
   Model model = parse_model(R"toml(

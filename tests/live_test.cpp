@@ -98,7 +98,7 @@ TEST(Live, AHeldLinkComesToThePull) {
   EXPECT_NEAR(end[1], target[1], 1e-2);
 }
 
-// Whatever is pulled however hard: no exception, no value that is not finite, and it goes on when it is let go.
+// However hard any body is pulled: no exception, no value that is not finite, and the motion continues when the body is released.
 TEST(Live, SurvivesEveryMechanismBeingPulledAbout) {
   for (const std::string& name : all_mechanisms()) {
     if (name == "n_four_bar_40") continue;
@@ -124,7 +124,7 @@ TEST(Live, SurvivesEveryMechanismBeingPulledAbout) {
   }
 }
 
-// Beyond half a second the force is no number: no step leads on, not from rest either.
+// After half a second the force is not a number: no step can be taken, not from rest either.
 TEST(Live, StaysAsItWasWhereNoStepCanBeMade) {
   LiveMotion live(read_model(PINTLE_SOURCE_DIR "/tests/models/block_with_a_force_that_ends.toml"));
   while (live.advance(0.01)) ASSERT_LT(live.time(), 0.6);

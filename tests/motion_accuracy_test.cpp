@@ -1,5 +1,5 @@
-// A tolerance of the motion: places are as accurate as asked for and as stated, and vibrations that they do not feel are
-// stepped over. The truth is a run with a far smaller tolerance of the forces, which follows every vibration.
+// A tolerance on the motion: positions are as accurate as asked for and as stated, and vibrations that do not affect them are stepped over. The truth is a run
+// with a far smaller tolerance on the forces, which follows every vibration.
 #include <gtest/gtest.h>
 
 #include "tests/reference_tables.h"
@@ -7,7 +7,7 @@
 namespace pintle {
 namespace {
 
-// The angle that matters is the crank's: in these mechanisms no point is off by more than it times the longest arm.
+// The angle that matters is the crank's: in these mechanisms no point is off by more than its error times the longest arm.
 struct Coordinate {
   const char* name;
   const char* column;
@@ -42,7 +42,7 @@ TEST_P(MotionAccuracy, IsAsAskedForAndAsStated) {
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
     EXPECT_TRUE(run.of_motion);
     EXPECT_LE(run.motion_error, tolerance);
-    const double error = column_difference(run, truth, c.column);  // of a way of one or two lengths
+    const double error = column_difference(run, truth, c.column);  // for a path of one or two lengths
     EXPECT_LE(error, 3 * tolerance);
     EXPECT_LE(error, 10 * run.motion_error + 1e-9);
   }

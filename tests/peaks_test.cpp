@@ -9,7 +9,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kAlike = 1e-5, kNegligible = 1e-4;  // of a joint's peak; of the largest of the mechanism
+constexpr double kAlike = 1e-5, kNegligible = 1e-4;  // as fractions of a joint's peak; of the largest peak of the mechanism
 
 Trajectory with_rows(const std::string& name, double duration, int rows) {
   Model model = reference::mechanism(name);
@@ -36,7 +36,7 @@ TEST(PeaksSlow, DoNotDependOnTheRows) {
   }
 }
 
-// What one power after the other adds up to.
+// The works of the single motors add up to that of the account.
 TEST(Peaks, MotorsDoTheWorkOfTheAccount) {
   for (const char* name : {"quick_return", "toggle_press"}) {
     const Trajectory run = with_rows(name, name[0] == 'q' ? 0.2 : 0, 20);

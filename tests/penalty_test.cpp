@@ -72,7 +72,7 @@ TEST(SlowPublishedPenalty, NFourBarKeepsItsBranch) {
   }
 }
 
-// A uniform rod at u that has fallen from the horizontal carries 5/2 of its weight's part along u, and 1/4 of the part across.
+// A uniform rod along u that has fallen from the horizontal carries 5/2 of the part of its weight along u, and 1/4 of the part across.
 TEST(PenaltyRuns, PendulumHasTheReactionsOfTheClosedForm) {
   for (const Way& way : kWays) {
     const Model model = reference::mechanism("pendulum", by(way, {"simulate.duration=2", "simulate.tolerance=1e-4"}));
@@ -88,8 +88,7 @@ TEST(PenaltyRuns, PendulumHasTheReactionsOfTheClosedForm) {
   }
 }
 
-// The parallelogram's bars carry their coupler together; how they share it the constraints do not say.
-// By how much constraints are violated is told of penalties, which alone violate them.
+// The violation of constraints is reported for penalties, which alone violate them.
 TEST(PenaltyRuns, TellHowFarConstraintsAreViolated) {
   const auto notes = [](const char* equations, const char* method) {
     std::string all;
@@ -100,6 +99,7 @@ TEST(PenaltyRuns, TellHowFarConstraintsAreViolated) {
   EXPECT_EQ(notes("ideal", "dopri5").find("violated"), std::string::npos);
 }
 
+// The parallelogram's bars carry their coupler together; the constraints do not determine how they share it.
 TEST(PenaltyRuns, RedundantJointsHaveFiniteForces) {
   const auto run_of = [](std::vector<std::string> settings) {
     settings.insert(settings.end(), {"simulate.duration=0.1", "parameters.error=0"});

@@ -1,5 +1,5 @@
-// Andrews' squeezer: all 27 components of the Test Set for IVP Solvers, their limit of stiff pins, and problem A03 of the IFToMM
-// library with the forces of its ten pins.
+// Andrews' squeezer: all 27 components of the Test Set for IVP Solvers, their limit for stiff pins, and problem A03 of the IFToMM library with the forces of
+// its ten pins.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -31,7 +31,7 @@ double difference(const Components& y, const std::vector<double>& from_facts, st
   return largest;
 }
 
-// The published end is right to 9.6 digits in the angles and 5.9 in accelerations and multipliers; the exact one to 12.
+// The published end is accurate to 9.6 digits in the angles and 5.9 in accelerations and multipliers; the exact one to 12.
 TEST(PublishedAndrews, StiffPinsTendToThePublishedEnd) {
   const nlohmann::json known = facts("ivp_andrews");
   const std::vector<double> exact = known["exact"], printed = known["published"];
@@ -87,7 +87,7 @@ TEST(PublishedAndrews, TenPinForcesTendToThoseOfIdealPins) {
   EXPECT_LT(errors[2], 1e-5);
 }
 
-// The library's start is another one, and its run longer: point F, the energy balance, and the pins.
+// The library's start is different, and its run longer: point F, the energy balance, and the pins.
 TEST(PublishedAndrews, LibrarysProblemToTheEnd) {
   const nlohmann::json known = facts("iftomm_a03");
   Model model = andrews(1e12, {"parameters.beta=-0.062", "simulate.duration=0.05", "simulate.output_step=0.0025"});
@@ -99,7 +99,7 @@ TEST(PublishedAndrews, LibrarysProblemToTheEnd) {
     const double beta = value(run, row, "body.K1.angle");
     EXPECT_NEAR(0.007 * std::cos(beta), at[1].get<double>(), 1e-6);
     EXPECT_NEAR(0.007 * std::sin(beta), at[2].get<double>(), 1e-6);
-    // Energy is what the motor's constant torque gave.
+    // The energy is the work of the motor's constant torque.
     const double energy = value(run, row, "energy.kinetic") + value(run, row, "energy.potential"),
                  first = value(run, 0, "energy.kinetic") + value(run, 0, "energy.potential");
     EXPECT_NEAR(energy - first, 0.033 * (beta - value(run, 0, "body.K1.angle")), 1e-6);

@@ -1,4 +1,4 @@
-// Published and computed mechanisms with clearance and contact: when the bodies touch, let go, and where they are.
+// Published and computed mechanisms with clearance and contact: when the bodies touch and separate, and where they are.
 #include <gtest/gtest.h>
 
 #include "laws/contact/contact.h"
@@ -75,8 +75,8 @@ between = ["ground.guide", "slider.b"]
                      "slider_crank.toml");
 }
 
-// Source: the published problem of P. Flores and others, computed with an event-driven program of 8 to 9 digits: times of touch and let-go,
-// then the slider's place and speed.
+// Source: the published problem of P. Flores and others, computed with an event-driven program of 8 to 9 digits: times of touch and release, then the slider's
+// position and speed.
 TEST(Contact, SliderCrankWithAClearanceJointTouchesWhenItShould) {
   constexpr double kTimes[][2] = {{0.00022728488012118236, 0.0002807207844316768}, {0.0006364282783851722, 0.0006902209705600365}, {0.0007491400437525636, 0.0008147093951919064},
                                   {0.0010795439932897116, 0.0011396965983561608}, {0.0012034282009330778, 0.0014862242870707781}};
@@ -169,7 +169,7 @@ TEST(Contact, AFallingRodMovesAsTheTableSays) {
     EXPECT_LT(error("vy"), 2e-9) << i;
     EXPECT_LT(error("spin"), 1e-8) << i;
   }
-  // The published run, MATLAB ode45 at 1e-6: known to be 8.4e-3 m/s and 3.1e-2 rad/s away behind the last impact, and close before the second.
+  // The published run, MATLAB ode45 at 1e-6: known to be 8.4e-3 m/s and 3.1e-2 rad/s off after the last impact, and close before the second.
   const reference::Table published = reference::read_table("falling_rod_published");
   for (std::size_t i = 0; i < published.rows.size(); ++i) {
     const std::size_t row = reference::row_at(run, published.at(i, "t"));

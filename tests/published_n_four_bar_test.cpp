@@ -15,7 +15,7 @@ nlohmann::json n_four_bar_facts() {
   return nlohmann::json::parse(file);
 }
 
-// Largest departure of kinetic and potential energy from the start's; the pins' losses count.
+// Largest departure of kinetic plus potential energy from its initial value; the pins' losses count.
 double energy_error(const Trajectory& run) {
   const auto total = [&](std::size_t row) { return value(run, row, "energy.kinetic") + value(run, row, "energy.potential"); };
   double largest = 0;

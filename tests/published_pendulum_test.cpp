@@ -15,7 +15,7 @@ nlohmann::json pendulum_facts() {
   return nlohmann::json::parse(file);
 }
 
-// Damping in keeping with the stiffness.
+// Damping proportional to the stiffness.
 Trajectory swing(double k) {
   Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/bench/published/simple_pendulum.toml");
   reference::set_joints(model, k, 3e-7 * k);
@@ -43,7 +43,7 @@ TEST(PublishedPendulum, MotionIsThePublishedOne) {
     EXPECT_LT(std::abs(value(run, row, "energy.kinetic") + value(run, row, "energy.potential")), 5e-5);  // the library's is zero
 }
 
-// The rod's tension is m (v^2 - g y)/L; what is left is the rod's stretch.
+// The rod's tension is m (v^2 - g y)/L; the remaining difference is the rod's stretch.
 TEST(PublishedPendulum, TensionIsThatOfTheMotion) {
   const Trajectory run = swing(1e12);
   for (std::size_t row = 0; row < run.n_rows(); ++row) {

@@ -1,5 +1,5 @@
-// Mechanisms of the collection with joints as they are: clearance, contact, friction, films, stops, detents, cylinders, blades. Each runs to its end at two
-// tolerances, and the forces of the coarser run are right by those of the finer one.
+// Mechanisms of the collection with real joints: clearance, contact, friction, films, stops, detents, cylinders, blades. Each runs to its end at two
+// tolerances, and the forces of the coarser run are checked against those of the finer one.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kSmallForce = 1e-4;  // of the mechanism's largest force: what a joint is measured by at least
+constexpr double kSmallForce = 1e-4;  // lower limit, as a fraction of the mechanism's largest force, on the force by which a joint is measured
 
 class RealJointsSlow : public testing::TestWithParam<const char*> {};
 
@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Collection, RealJointsSlow,
                                          "air_cylinder", "excavator_boom", "selector_switch", "parallel_spring_stage", "cross_spring_pendulum"),
                          [](const testing::TestParamInfo<const char*>& one) { return std::string(one.param); });
 
-// A scissor jack whose nut rubs so much that its load does not drive it, with friction in its pins as well: all of it rests from the start.
+// A scissor jack whose nut rubs so much that its load does not drive it, with friction in its pins as well: all of it is at rest from the start.
 TEST(SelfLockingJack, RestsFromTheStart) {
   const Model jack = parse_model(R"toml(
 format = 1

@@ -1,7 +1,7 @@
-// The paper's four-bar with a clearance joint at B, without and with friction, against computed tables and against equations of its own.
+// The paper's four-bar with a clearance joint at B, without and with friction, against computed tables and against independent equations.
 //
-// The tables take the radii of pin and bush as the arms of friction: two points of contact, which lie a depth apart. A joint of Pintle has one
-// (theory/contact section 4). The equations below know both: with two points they give the table, with one they give Pintle's run.
+// The tables take the radii of pin and bush as the lever arms of friction: two points of contact, a depth apart. A joint of Pintle has one (theory/contact
+// section 4). The equations below allow both: with two points they give the table, with one they give Pintle's run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,9 +21,9 @@ using contacts::Followed;
 
 constexpr double kCoupler = 0.8956647938578649, kFollower = 2.2459278597319283;  // angles at the start
 constexpr double kDuration = 0.3, kOutputStep = 0.005, kFriction = 0.1;
-constexpr double kAngleLimit = 1e-7, kForceLimit = 1e-3, kTimeLimit = 1e-7;      // what the tables are to be met by
+constexpr double kAngleLimit = 1e-7, kForceLimit = 1e-3, kTimeLimit = 1e-7;      // tolerances against the tables
 
-// Rows of t, three angles, force on the coupler; and the times of touch and let-go, in turn.
+// Rows of t, three angles, force on the coupler; and the times of touch and release, in turn.
 struct Motion {
   std::vector<std::array<double, 6>> rows;
   std::vector<double> contacts;
@@ -50,9 +50,9 @@ void expect_same_motion(const Motion& a, const Motion& b) {
   EXPECT_LT(most.time, kTimeLimit);
 }
 
-// --- Equations of their own ---
+// --- Independent equations ---
 
-// Lagrange's equations of the angles of crank, coupler and follower, with the contact's force as a load.
+// Lagrange's equations in the angles of crank, coupler and follower, with the contact force as a load.
 class LooseFourBar {
  public:
   enum class Arms { kOnePoint, kTwoPoints };
@@ -64,7 +64,7 @@ class LooseFourBar {
     double t = 0, border = 0;
     for (int row = 0; row <= std::lround(kDuration / kOutputStep); ++row) {
       for (const double end = row * kOutputStep; t < end;) {
-        double h = std::min({kStep, 0.2 * (t - border) + 1e-8, end - t});  // short behind a border: the force goes as the depth to the power 3/2
+        double h = std::min({kStep, 0.2 * (t - border) + 1e-8, end - t});  // short after a border: the force grows with the depth to the power 3/2
         const bool last = h == end - t, crossed = cross(y, h);
         y = stepped(y, h);
         t = last && !crossed ? end : t + h;
@@ -115,7 +115,7 @@ class LooseFourBar {
     return {y[3], y[4], y[5], (kInertia * crank_moment - coupled * coupler_moment) / determinant, (crank * coupler_moment - coupled * crank_moment) / determinant,
             -(kLink * turning(y[2]) + at.arm * at.friction) / kInertia};
   }
-  // Dormand and Prince's method of order 5, on the branch of the contact that holds where the step begins.
+  // Dormand and Prince's method of order 5, on the contact branch that holds at the start of the step.
   Angles stepped(const Angles& y, double h) const {
     static constexpr double kTable[6][6] = {{1.0 / 5},
                                             {3.0 / 40, 9.0 / 40},
@@ -138,7 +138,7 @@ class LooseFourBar {
     const bool rubs = touching_ && friction_ > 0;
     return {at.depth > 0, rubs && std::abs(at.slip) > kStart, rubs && std::abs(at.slip) > kFull};
   }
-  // Shortens a step that crosses a border so that it ends just behind it.
+  // Shortens a step that crosses a border so that it ends just after it.
   bool cross(const Angles& y, double& h) const {
     const std::array<bool, 3> before = side(y);
     if (side(stepped(y, h)) == before) return false;
@@ -247,7 +247,7 @@ Motion run_of(double friction) {
 
 // --- The tables ---
 
-// Touches and let-gos are known to 1e-12 s, located on the depth in 80-bit numbers.
+// Touches and releases are known to 1e-12 s, located on the depth in 80-bit arithmetic.
 Motion table(const std::string& name, const std::vector<double>& contacts) {
   const reference::Table known = reference::read_table(name);
   Motion motion{{}, contacts};
@@ -287,7 +287,7 @@ TEST(ClearanceFourBar, WithFrictionItIsTheTableButForThePointOfContact) {
   const Motion one = LooseFourBar(kFriction, LooseFourBar::Arms::kOnePoint).solve(), two = LooseFourBar(kFriction, LooseFourBar::Arms::kTwoPoints).solve();
   expect_same_motion(run, one);
   expect_same_motion(two, known);
-  // What the second point changes: more than the tables leave open, and the same from equations to equations as from run to table.
+  // The effect of the second point: above the tolerances of the tables, and the same between the two sets of equations as between run and table.
   const MotionDifference expected = motion_difference(one, two), found = motion_difference(run, known);
   EXPECT_NEAR(found.angle, expected.angle, kAngleLimit);
   EXPECT_NEAR(found.force, expected.force, kForceLimit);

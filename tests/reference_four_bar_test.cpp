@@ -1,5 +1,4 @@
-// The four-bar of the paper's section 8 against ideal joints, over a whole turn of its crank; the shock of an inconsistent
-// start; what it costs.
+// The four-bar of the paper's section 8 against ideal joints, over a whole turn of its crank; the shock of an inconsistent start; the number of steps.
 #include <gtest/gtest.h>
 
 #include "system/sample_systems_for_tests.h"
@@ -21,7 +20,7 @@ constexpr Force kForces[] = {{"O2.on_crank", "F12x", "F12y"},
                              {"B.on_follower", "F34x", "F34y"},
                              {"O4.on_follower", "F14x", "F14y"}};
 
-// Two pins in a row give way by 6 micrometres each, and by ten times that per second.
+// Two pins in series deflect by 6 micrometres each, and by ten times that per second.
 constexpr reference::Limits kFourBarLimits{1.5e-5, 5e-6, 2e-4, 5e-5};
 
 TEST(ReferenceFourBar, ForcesAreThoseOfIdealJointsOverTheWholeTurn) {
@@ -72,7 +71,7 @@ TEST(ReferenceFourBar, AnInconsistentStartIsFollowedThroughItsShock) {
       largest = std::max(largest, std::abs(value(run, i, joint + ".fx[world]") - ideal.at(i, force.x)));
       largest = std::max(largest, std::abs(value(run, i, joint + ".fy[world]") - ideal.at(i, force.y)));
     }
-    // The figures have two digits; the tolerance is of a peak of 3e4 N.
+    // The figures have two digits; the tolerance is relative to a peak of 3e4 N.
     EXPECT_NEAR(largest, known[i], 0.05 * known[i] + 3e4 * model.simulate.tolerance) << i;
   }
   EXPECT_NEAR(value(run, run.n_rows() - 1, "body.crank.spin"), 9.99963, 1e-5);
@@ -106,8 +105,8 @@ std::uint64_t steps_at(double k, double c) {
   return steps;
 }
 
-// Damping in keeping with the stiffness: 3000 N s/m at 1e8 N/m. Measured: 56 to 60 steps from 1e7 N/m on; 87 at 1e6 N/m, where
-// the follower's vibration outlasts the start.
+// Damping scaled with the stiffness: 3000 N s/m at 1e8 N/m. Measured: 56 to 60 steps from 1e7 N/m on; 87 at 1e6 N/m, where the follower's vibration outlasts
+// the start.
 TEST(ReferenceFourBar, StepsDoNotDependOnStiffness) {
   std::uint64_t least = ~0ull, most = 0;
   for (const double k : {1e7, 1e8, 1e9, 1e10, 1e11, 1e12}) {

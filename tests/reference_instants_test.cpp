@@ -1,4 +1,4 @@
-// Joint forces at one instant, from text books: a motor's moment and what it takes at the pins.
+// Joint forces at one instant, from textbooks: a motor's moment and the resulting forces of the pins.
 #include <gtest/gtest.h>
 
 #include "base/constants.h"
@@ -14,7 +14,7 @@ struct AtStart {
   std::vector<Planar::Motion> m;
 
   explicit AtStart(const Model& model) : start(start_of_run(model)) { start.system.motions(start.state.q, start.state.v, m); }
-  /// On the second body, world axes.
+  /// Force on the second body, world axes.
   Planar::Point force(int j) const { return start.system.pose(start.system.joints[j].at, m).world_force(start.state.force[j]); }
 };
 
@@ -26,8 +26,8 @@ Motor torque(const std::string& joint, double moment) {
   return sample::motor("drive", joint, MotorKind::kEffort, Expression::constant(moment));
 }
 
-// R. L. Norton, Design of Machinery, example 11-3, in SI units: crank at 60 deg with 25 rad/s and -40 rad/s^2. Figures from the
-// nine Newton-Euler equations of the ideal linkage; the moment gives the acceleration.
+// R. L. Norton, Design of Machinery, example 11-3, in SI units: crank at 60 deg with 25 rad/s and -40 rad/s^2. Figures from the nine Newton-Euler equations of
+// the ideal linkage; the moment gives the acceleration.
 TEST(ReferenceInstants, NortonFourBar) {
   const double inch = 0.0254, k = 1e11, c = 1e5, theta2 = 60 * kDegree, omega = 25, a = 5 * inch, b = 15 * inch;
   const double theta3 = 20.917224866506565 * kDegree, theta4 = 104.40972127476181 * kDegree;
@@ -76,8 +76,8 @@ TEST(ReferenceInstants, NortonFourBar) {
   expect_force(at, 3, -89.99394856829947, 345.6499887799212, 5e-3);
 }
 
-// D. B. Marghitu, Mechanisms and Robots Analysis with MATLAB, chapter 4: slider-crank at 45 deg, 1 rad/s, 100 N on the slider,
-// which has no mass moment to speak of. Closed-form Newton-Euler.
+// D. B. Marghitu, Mechanisms and Robots Analysis with MATLAB, chapter 4: slider-crank at 45 deg, 1 rad/s, 100 N on the slider, whose moment of inertia is
+// negligible. Closed-form Newton-Euler.
 TEST(ReferenceInstants, MarghituSliderCrank) {
   const double k = 1e11, c = 1e5, half = std::numbers::sqrt2 / 4;
   Model model;

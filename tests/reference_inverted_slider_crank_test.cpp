@@ -1,5 +1,4 @@
-// The inverted slider-crank (the paper's section 9) against ideal joints: pins, the force and the moment of the prismatic
-// pair, all eighteen states.
+// The inverted slider-crank (the paper's section 9) against ideal joints: pins, the force and the moment of the prismatic pair, all eighteen states.
 #include <gtest/gtest.h>
 
 #include "tests/reference_tables.h"
@@ -25,7 +24,7 @@ Model model_with(double factor) {
   return model;
 }
 
-// Largest differences from ideal joints over the turn, over the peaks: pins, force of the guide, moment of the guide.
+// Largest differences from ideal joints over the turn, relative to the peaks: pins, force of the guide, moment of the guide.
 struct PinDifferences {
   double pins = 0, force = 0, moment = 0, along = 0;
 };
@@ -42,8 +41,8 @@ PinDifferences pin_differences(const Trajectory& run, const reference::Table& id
   return d;
 }
 
-// The guide's return stroke is so quick (2000 rad/s^2) that the pins' own 2 micrometres show in the forces. What is left of
-// that at 1e8 N/m, measured 5e-4 of the peaks, falls in proportion to the compliance.
+// The guide's return stroke is so quick (2000 rad/s^2) that the 2 micrometres of the pins show in the forces. The resulting difference at 1e8 N/m, measured
+// 5e-4 of the peaks, falls in proportion to the compliance.
 TEST(ReferenceInvertedSliderCrank, ForcesTendToThoseOfIdealJoints) {
   const reference::Table ideal = reference::read_table("inverted_slider_crank");
   ASSERT_EQ(ideal.rows.size(), kAngles);
@@ -60,7 +59,7 @@ TEST(ReferenceInvertedSliderCrank, ForcesTendToThoseOfIdealJoints) {
   EXPECT_NEAR(one.moment / ten.moment, 10, 2);
 }
 
-// The difference is the joints' and not the method's: an explicit run of the same equations has it too.
+// The difference comes from the joints and not from the method: an explicit run of the same equations has it too.
 TEST(ReferenceInvertedSliderCrank, CompliantForcesAreThoseOfAnExplicitRun) {
   Model model = model_with(1);
   model.simulate.duration /= 18;
@@ -80,7 +79,7 @@ TEST(ReferenceInvertedSliderCrank, CompliantForcesAreThoseOfAnExplicitRun) {
 
 constexpr reference::Limits kPinLimits{5e-6, 5e-6, 1e-4, 5e-4};
 
-// With joints of 1e10 N/m, which give way by 20 nanometres.
+// With joints of 1e10 N/m, which deflect by 20 nanometres.
 TEST(ReferenceInvertedSliderCrank, AllEighteenStates) {
   const reference::Table ideal = reference::read_table("inverted_slider_crank");
   const Trajectory run = simulate(model_with(100));

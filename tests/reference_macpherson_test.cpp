@@ -1,4 +1,4 @@
-// A published strut on its tyre, with three models of one mechanism: a slider, a pin in a slot for the slider, a rod for the arm.
+// A published strut on its tyre, as three models of one mechanism: with a slider, with a pin in a slot in its place, with a rod in place of the arm.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
@@ -135,7 +135,7 @@ Columns forces_of(char which) {
   return all;
 }
 
-// How far the columns are from the table's at most, over all its rows.
+// Largest difference of the columns from the table's, over all its rows.
 double largest_error(const Trajectory& run, const Table& table, const Columns& columns) {
   double largest = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -144,7 +144,7 @@ double largest_error(const Trajectory& run, const Table& table, const Columns& c
   return largest;
 }
 
-// The tables have 10 digits: their two computations agree to 1e-11 m and rad and to 5e-10 m/s and rad/s; forces go to 1050 N.
+// The tables have 10 digits: their two computations agree to 1e-11 m and rad and to 5e-10 m/s and rad/s; forces reach 1050 N.
 TEST(ReferenceMacPherson, IdealJointsMoveAndPullAsTheTablesSay) {
   for (const char which : {'a', 'b', 'c'}) {
     Model model = strut(which);
@@ -162,8 +162,8 @@ TEST(ReferenceMacPherson, IdealJointsMoveAndPullAsTheTablesSay) {
 using Vector = Eigen::Vector2d;
 Vector turned(const Vector& v) { return {-v[1], v[0]}; }
 
-// Model MP_C, of one body, whose forces the published table does not have: on the wheel of the rod, at A, and of the ground's pin, at O, from a row of the table
-// and Newton's and Euler's equations with the accelerations of both constraints.
+// Model MP_C, of one body, whose forces are not in the published table: the force of the rod on the wheel, at A, and of the ground's pin, at O, from a row of
+// the table and the Newton-Euler equations with the accelerations of both constraints.
 struct RodAndPin {
   Vector rod, pin;
 
@@ -195,7 +195,7 @@ struct RodAndPin {
   }
 };
 
-// The dampers of spring and tyre make a force of 1e-6 N of the last digit of the table's speeds, 5e-10 m/s.
+// The last digit of the table's speeds, 5e-10 m/s, gives a force of 1e-6 N in the dampers of spring and tyre.
 TEST(ReferenceMacPherson, AMasslessArmPullsAsTheAccelerationsSay) {
   Model model = strut('c');
   model.simulate.equations = Equations::kIdeal;
@@ -212,8 +212,8 @@ TEST(ReferenceMacPherson, AMasslessArmPullsAsTheAccelerationsSay) {
   EXPECT_GT(peak, 500);
 }
 
-// Joints that give way are off by the load over their stiffness, whose tenth leaves a tenth: places, speeds and forces, also behind the tyre's jump, as soon as
-// its ringing is over (the first row behind it is 18 ms later).
+// Compliant joints are off by the load over their stiffness, and a tenth of the compliance leaves a tenth: positions, speeds and forces, also after the tyre's
+// jump, as soon as its ringing is over (the first row after it is 18 ms later).
 TEST(ReferenceMacPherson, StiffJointsTendToIdealOnesAsTheirCompliance) {
   for (const char which : {'a', 'b', 'c'}) {
     const Table table = reference::read_table(fmt::format("macpherson_{}", which));

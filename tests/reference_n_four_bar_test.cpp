@@ -1,6 +1,6 @@
-// N four-bars in a row, through positions where all bars are in line: on the regular branch all cranks stay parallel and
-// turn as one rotating pendulum. With compliant pins the bars may leave their line sideways by sqrt(2 x stretch / length): what
-// a passage leaves of that is some 1e-4 rad, and slows the crank by some 1e-3 rad per turn, at any tolerance.
+// N four-bars in a row, through positions where all bars are in line: on the regular branch all cranks stay parallel and turn as one rotating pendulum. With
+// compliant pins the bars may leave their line sideways by sqrt(2 x stretch / length): a passage leaves some 1e-4 rad of that, which slows the crank by some
+// 1e-3 rad per turn, at any tolerance.
 #include <gtest/gtest.h>
 
 #include "tests/reference_tables.h"

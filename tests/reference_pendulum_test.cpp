@@ -9,7 +9,7 @@ namespace {
 
 using reference::value;
 
-// The ideal pin's force at an angle from the vertical, let go at 90 deg from rest; x downwards.
+// The ideal pin's force at an angle from the vertical, released from rest at 90 deg; x downwards.
 struct IdealPin {
   double fx, fy;
   explicit IdealPin(double theta) {
@@ -40,7 +40,7 @@ TEST(ReferencePendulum, AngleAndForceAreThoseOfAnIdealPinThroughout) {
   }
 }
 
-// Without stretch at the start the pin carries nothing at first, 2.4525 N too little, and finds its load within 10 ms.
+// Without initial stretch the pin carries nothing at first, 2.4525 N too little, and reaches its load within 10 ms.
 TEST(ReferencePendulum, ARawStartIsOffForSomeMillisecondsOnly) {
   Model model = reference::mechanism("pendulum");
   model.simulate.tolerance = 1e-6;
@@ -87,8 +87,8 @@ TEST(ReferencePendulum, TheDashpotCarriesNextToNothing) {
   EXPECT_GT(dashpot / spring, 1e-6);
 }
 
-// No damping: the stretch missing at the start rings for ever, at 28 284 rad/s and less. Both methods follow it; the explicit
-// one to 1e-8, since the rounding of a position is a force of 2e-8 N.
+// Without damping the stretch that is missing at the start rings for ever, at 28 284 rad/s and less. Both methods follow it; the explicit one to 1e-8, since
+// the roundoff of a position is a force of 2e-8 N.
 TEST(ReferencePendulum, UndampedRippleIsTheTrueOne) {
   Model model = reference::mechanism("pendulum");
   model.simulate.start = Start::kRaw;
@@ -106,7 +106,7 @@ TEST(ReferencePendulum, UndampedRippleIsTheTrueOne) {
     largest = std::max(largest, reference::force_error(run, row, "pin.on_rod", fx, fy));
     peak = std::max(peak, std::hypot(fx, fy));
   }
-  EXPECT_NEAR(peak, 2 * 2.4525, 0.01);  // once the load that is missing on either side of it
+  EXPECT_NEAR(peak, 2 * 2.4525, 0.01);  // the load, and as much again for the part of it that is missing at the start
   EXPECT_LE(largest, model.simulate.tolerance * peak);
 }
 

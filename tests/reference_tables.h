@@ -66,10 +66,10 @@ inline Model mechanism(const std::string& name, const std::vector<std::string>& 
   return read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml", overrides);
 }
 
-/// A model that stands in tests/models because it broke a promise once.
+/// A model kept in tests/models because it once broke a promise.
 inline Model test_model(const std::string& name, const std::vector<std::string>& overrides = {}) { return read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/" + name + ".toml", overrides); }
 
-/// That of section 8 of the paper with friction in all pins.
+/// The four-bar of section 8 of the paper with friction in all pins.
 inline Model rubbing_four_bar() {
   Model model = mechanism("four_bar");
   for (Joint& joint : model.joints) joint.friction = {"lugre", {{"pin_radius", {0.01}}}};
@@ -97,10 +97,10 @@ inline Trajectory completed(const Model& model) {
   return run;
 }
 
-/// Of the energy account, over the energies that a run has moved.
+/// Drift of the energy account, relative to the energies that a run has turned over.
 inline double drift(const Trajectory& run) { return run.energy.drift / (run.energy.kinetic_peak + run.energy.dissipated + std::abs(run.energy.supplied)); }
 
-/// A mass of 1 kg on a slide, pulled by a spring of 2 N/m whose far end moves at 0.1 m/s; it sticks and slips by the friction that `friction` says.
+/// A mass of 1 kg on a slide, pulled by a spring of 2 N/m whose far end moves at 0.1 m/s; it sticks and slips with the friction stated by `friction`.
 inline std::string pulled_mass(double gravity, const std::string& friction, double mass = 1, double stiffness = 2, double speed = 0.1) {
   const auto number = [](double x) { return std::to_string(x); };
   return "format = 1\ngravity = [0, " + number(-gravity) + "]" + R"toml(
@@ -177,7 +177,7 @@ struct Limits {
   double position, angle, velocity, spin;
 };
 
-/// Centre of mass and motion of a body whose point (px, py), in its own axes, moves as `point` says.
+/// Checks the centre of mass and the motion of a body whose point (px, py), in its own axes, moves as `point` says.
 inline void expect_body(const Trajectory& run, std::size_t row, const std::string& name, const PointMotion& point, double px, double py,
                         const Limits& limits) {
   const double c = std::cos(point.angle), s = std::sin(point.angle), dx = -(c * px - s * py), dy = -(s * px + c * py);
@@ -209,8 +209,8 @@ inline Integration integrate_once(const Model& model, double tolerance, int stag
   return done;
 }
 
-/// Counters of the second, reported pass of a run: a pilot with ten times the tolerance before it; five stages where the
-/// pilot's Newton iterations say that its steps are short.
+/// Counters of the second, reported pass of a run, after a pilot with ten times the tolerance; five stages where the pilot's Newton iterations show that its
+/// steps are short.
 inline Counters reported_pass(const Model& model) {
   Integration pilot = integrate_once(model, kPilot * model.simulate.tolerance, 3, nullptr);
   const Counters& c = pilot.counters;

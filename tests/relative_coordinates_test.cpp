@@ -1,4 +1,4 @@
-// Equations over a tree of ideal joints against those of free bodies with every joint a stiff law, and against exact solutions.
+// Equations over a tree of ideal joints, compared with those of free bodies with a stiff law in every joint, and with exact solutions.
 #include <gtest/gtest.h>
 
 #include "system/sample_systems_for_tests.h"
@@ -25,8 +25,8 @@ std::vector<std::string> all_but(const Model& model, const std::string& opened) 
   return names;
 }
 
-/// Largest differences of two runs of the same rows: of the bodies' columns, and of each joint's force and moment over
-/// peak (at least a thousandth of the largest joint's).
+/// Largest differences of two runs with the same rows: of the bodies' columns, and of each joint's force and moment relative to its peak (at least a thousandth
+/// of the largest joint's).
 struct LargestDifferences {
   double bodies = 0, forces = 0;
 };
@@ -65,7 +65,7 @@ Model stiff(const std::string& name, double k, double c, double angular_k = 0, d
   return model;
 }
 
-// Free bodies give way by f/k at each of their joints, 1e-8 m at 1e11 N/m: no closer than that can the two be.
+// Free bodies deflect by f/k at each of their joints, 1e-8 m at 1e11 N/m: the two cannot agree more closely than that.
 TEST(RelativeFourBar, WhicheverJointIsOpenedMotionAndForcesAreThoseOfFreeBodies) {
   Model model = stiff("four_bar", 1e11, 3000 * std::sqrt(1e3));
   model.simulate.tolerance = 1e-8;
@@ -79,7 +79,7 @@ TEST(RelativeFourBar, WhicheverJointIsOpenedMotionAndForcesAreThoseOfFreeBodies)
   }
 }
 
-// What is left of the difference is the other joints' compliance: it goes with 1/k.
+// The remaining difference is the other joints' compliance: it is proportional to 1/k.
 TEST(RelativeFourBar, TheDifferenceFromFreeBodiesGoesWithTheirCompliance) {
   std::vector<LargestDifferences> differences;
   for (const double k : {1e9, 1e10}) {
@@ -123,8 +123,8 @@ TEST(RelativeFourBar, ALoopOfIdealJointsIsOpenedAndTheNotesSayWhere) {
   EXPECT_TRUE(noted("joints eliminated by relative coordinates: O2, O4, A; 3 coordinates"));
 }
 
-// Coupler and follower at rest while the crank turns: ideal joints share the momentum out at once, the opened one keeps
-// its law. What its damping takes is what the free bodies' joints take, and both settle on the same motion.
+// Coupler and follower at rest while the crank turns: ideal joints share out the momentum at once, the opened one keeps its law. Its damping dissipates what
+// the free bodies' joints do, and both settle on the same motion.
 TEST(RelativeFourBar, AnInconsistentStartSettlesOnTheMotionOfFreeBodies) {
   Model model = sample::four_bar(1e10, 3e4);
   for (const int i : {1, 2}) {
@@ -155,7 +155,7 @@ TEST(RelativeFourBar, StepsAreAboutThoseOfFreeBodies) {
   }
 }
 
-// Softer joints, so that the explicit method need not make too many steps.
+// Softer joints, so that the explicit method does not need too many steps.
 TEST(RelativeFourBar, ImplicitAndExplicitMethodAgree) {
   Model model = over_tree(stiff("four_bar", 1e6, 300), {"O2", "A", "O4"});
   model.simulate.tolerance = 1e-7;
@@ -185,7 +185,7 @@ TEST_P(RelativePendulum, AngleAndForceAreExactWithAnIdealPin) {
 
 INSTANTIATE_TEST_SUITE_P(BothMethods, RelativePendulum, ::testing::Values("radau", "dopri5"));
 
-// Its servos are soft, and a start on their slow motion is known to fewer digits than the run has: both start from one state.
+// Its servos are soft, and a start on their slow motion is known to fewer digits than the run keeps: both start from one state.
 TEST(RelativeRobotArm, AnOpenChainMovesAndLoadsAsFreeBodies) {
   Model model = stiff("robot_arm", 1e11, 1e5, 1e9, 1e4);
   const State start = start_of_run(model).state;
@@ -238,7 +238,7 @@ TEST(RelativeInvertedSliderCrank, WhicheverJointIsOpenedMotionAndForcesAreThoseO
   }
 }
 
-// Two bars swing into a rope, which bounces them several times.
+// Two bars swing into a rope, from which they bounce several times.
 TEST(RelativeRope, AnOpenedRopePullsAndHangsLooseAsBetweenFreeBodies) {
   Model model = sample::pendulum(1e11, 1e6);
   model.bodies[0].markers.push_back({"A", {0.5, 0}, 0});

@@ -1,4 +1,4 @@
-// Rubber that hardens and rubs inside, and friction along a slot, in whole runs against closed forms.
+// Rubber that hardens and has internal friction, and friction along a slot, in whole runs against closed forms.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ branch_time = [0.05]
   EXPECT_NEAR(at_end(run, "body.weight.y"), -r, 1e-7);
 }
 
-// A block that a servo moves by 2 mm to and fro, 1 per second, against rubber that rubs inside with 40 N over 0.5 mm.
+// A block that a servo moves by 2 mm to and fro, `speed` times per second, against rubber with an internal friction of 40 N over 0.5 mm.
 Model moved_to_and_fro(double cycles, double speed) {
   return parse_model(fmt::format(R"toml(
 format = 1
@@ -149,7 +149,7 @@ force = [{}, -30]
                                "slot.toml"));
 }
 
-// Pulled along it by 10 N; 0.2 of what presses holds back.
+// Pulled along it by 10 N; friction of 0.2 times the pressing force holds it back.
 TEST(SlotFriction, SlowsAPinAlongItsSlot) {
   const Trajectory run = in_slot(10, 0, 0.5);
   EXPECT_NEAR(at_end(run, "body.pin.x"), 0.5 * 2 * 0.25, 5e-4);  // (10 - 6)/2 m/s^2

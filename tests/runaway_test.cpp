@@ -1,4 +1,4 @@
-// Motions that are fed without end, machines that only look so, and energy accounts that do not close. theory/time section 8.
+// Motions that are fed energy without end, machines that only look so, and energy accounts that do not close. theory/time section 8.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(Runaway, AControllerOfTheWrongSignIsNamed) {
   const Trajectory run = simulate(reference::test_model("cart_and_pole_wrong_sign"));
   ASSERT_EQ(run.outcome, Outcome::kRunaway) << run.message;
   EXPECT_NE(run.message.find("motor controller feeds it"), std::string::npos) << run.message;
-  EXPECT_NE(run.message.find("at t = 0.40"), std::string::npos) << run.message;  // when it left what can be stored
+  EXPECT_NE(run.message.find("at t = 0.40"), std::string::npos) << run.message;  // when its energy exceeded what can be stored
   EXPECT_LT(run.t_end, 3);
   EXPECT_GT(run.n_rows(), 10u);
   EXPECT_LT(run.counters.steps, 10000u);
@@ -47,7 +47,7 @@ TEST(Runaway, AForceThatFeedsIsNamed) {
   EXPECT_NE(run.message.find("force jet feeds it"), std::string::npos) << run.message;
 }
 
-// Energies of 5e13, 5e17 and 1e4 J: by t^2, t^2 and more, and within a moment, from nothing.
+// Energies of 5e13, 5e17 and 1e4 J: growing as t^2, as t^2 and more, and within a moment, from nothing.
 TEST(Runaway, MachinesThatAreSpunUpAreNot) {
   for (const char* drive : {"1e3", "1e5*t", "100*step(t - 50)", "1e4*smoothstep(40, 60, t)"}) {
     const Trajectory run = simulate(rotor(drive, "100 s"));
@@ -64,7 +64,7 @@ TEST(EnergyAccount, APoleInsideTheRunIsNotSteppedOver) {
   EXPECT_NE(run.message.find("has a pole"), std::string::npos) << run.message;
 }
 
-// The force of such a servo is a parabola, which one step follows from end to end; its power is of the fifth degree.
+// The force of such a servo is a parabola, which one step follows from end to end; its power is of degree five.
 TEST(EnergyAccount, ClosesWhereARotorIsBroughtToItsSpeedInOneStep) {
   for (const std::string equations : {"newtonian", "relative"})
     for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6})
@@ -79,7 +79,7 @@ TEST(EnergyAccount, ClosesWhereARotorIsBroughtToItsSpeedInOneStep) {
         }
 }
 
-// What a rope that is let go had stored goes to whoever changes its length; so does what one takes that is cut to a shorter one.
+// The energy stored in a rope that is released goes to the drive that changes its length; a rope cut to a shorter length takes its energy from there.
 TEST(EnergyAccount, ClosesWhereALengthJumps) {
   const Trajectory run = simulate(reference::test_model("weight_let_go"));
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
@@ -88,7 +88,7 @@ TEST(EnergyAccount, ClosesWhereALengthJumps) {
   EXPECT_LT(std::abs(run.energy.drift), 1e-5 * stored);
 }
 
-// Behind 0.5 s the force is no number.
+// After 0.5 s the force is not a number.
 TEST(NoNumbers, NoMethodStepsIntoThem) {
   for (const char* method : {"radau", "dopri5", "hht"}) {
     Model model = reference::test_model("block_with_a_force_that_ends");
@@ -100,7 +100,7 @@ TEST(NoNumbers, NoMethodStepsIntoThem) {
   }
 }
 
-// The loads of a pass whose account did not close are no measure for the errors of the next one.
+// The loads of a pass whose account did not close are not used to measure the errors of the next one.
 TEST(EnergyAccount, IsClosedByAFinerPass) {
   Model model = reference::test_model("door_with_check_strap");
   for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
@@ -111,7 +111,7 @@ TEST(EnergyAccount, IsClosedByAFinerPass) {
   }
 }
 
-// The damper of its pin burns what the controller feeds: nothing runs away, and nothing is a machine any more.
+// The damper of its pin dissipates what the controller feeds: nothing runs away, but what is left is not a machine any more.
 TEST(TornJoints, AreNotedWithWhatFeedsThem) {
   const auto notes_of = [](const Trajectory& run) {
     std::string all;

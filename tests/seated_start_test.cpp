@@ -23,7 +23,7 @@ bool notes_have(const Trajectory& run, const std::string& words) {
   return std::any_of(run.notes.begin(), run.notes.end(), [&](const std::string& note) { return note.find(words) != std::string::npos; });
 }
 
-// A rod of 2 kg and 1 m on a pin with a tenth of a millimetre of play, let go 30 deg from hanging, or at rest below it.
+// A rod of 2 kg and 1 m on a pin with a tenth of a millimetre of play, released 30 deg from hanging, or at rest straight down.
 std::string rod(const std::string& angle, const std::string& gravity = "[0, -9.81]") {
   return fmt::format(R"toml(
 format = 1
@@ -49,15 +49,15 @@ contact_stiffness = 1e7
 )toml", gravity, angle);
 }
 
-// At the lowest point of the bush, as deep as the weight presses it, and there it stays.
+// It starts at the lowest point of the bush, as deep as the weight presses it, and stays there.
 TEST(SeatedStart, ARodAtRestHangsInItsBush) {
   const Trajectory run = completed(parse_model(rod("-90 deg"), "rod.toml"));
   EXPECT_NEAR(value(run, 0, "body.rod.y"), -0.5 - 1e-4 - 2 * 9.81 / 1e7, 1e-11);
   for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_NEAR(value(run, i, "joint.O.on_rod.fy[world]"), 2 * 9.81, 1e-6 * 2 * 9.81) << i;
 }
 
-// Let go, the rod turns about its pin: along itself that carries m g cos(30 deg), across it m g sin(30 deg) less the mass times the acceleration of its
-// middle. theory of the compound pendulum, the pin's way about its bush left out: a ten-thousandth of the length.
+// After release the rod turns about its pin: along itself the pin carries m g cos(30 deg), across it m g sin(30 deg) less the mass times the acceleration of
+// its middle. Theory of the compound pendulum without the pin's motion round its bush, a ten-thousandth of the length.
 TEST(SeatedStart, ARodThatIsLetGoBeginsWithThePinForceOfAPendulum) {
   const Trajectory run = completed(parse_model(rod("-60 deg"), "rod.toml"));
   const double weight = 2 * 9.81, along = weight * std::cos(kTurn / 12), across = weight * std::sin(kTurn / 12) * (1 - 2 * 0.25 / (0.17 + 2 * 0.25));
@@ -66,7 +66,7 @@ TEST(SeatedStart, ARodThatIsLetGoBeginsWithThePinForceOfAPendulum) {
   EXPECT_LT(run.joints[0].peak, 1.1 * weight * (1 + 3 * (1 - std::cos(kTurn / 12))));  // and the pin does not strike
 }
 
-// The first row has the forces that the same mechanism shows with ideal pins, and no impact makes larger ones than its motion.
+// The first row has the forces of the same mechanism with ideal pins, and no impact exceeds the forces of its motion.
 TEST(SeatedStart, AFourBarWithALoosePinBeginsWithTheForcesOfTheTightOne) {
   const Trajectory loose = completed(mechanism("four_bar_clearance", {kSeated}));
   const Trajectory tight = completed(mechanism("four_bar_clearance", {"--law joint.B=linear"}));
@@ -82,7 +82,7 @@ TEST(SeatedStart, WhereThePinIsInTheMiddleInsteadItsFirstImpactIsTheLargestForce
   EXPECT_GT(centred.joints[2].peak, 3 * completed(mechanism("four_bar_clearance", {kSeated})).joints[2].peak);
 }
 
-// A slide with play on both sides of its way, and several loose pins at once.
+// A slide with play on both sides of its guideway, and several loose pins at once.
 TEST(SeatedStart, PlayOfSlidesAndOfSeveralPinsIsTakenUp) {
   const Trajectory slide = completed(mechanism("loose_piston", {kSeated}));
   EXPECT_FALSE(notes_have(slide, "middle of their play"));
@@ -90,7 +90,7 @@ TEST(SeatedStart, PlayOfSlidesAndOfSeveralPinsIsTakenUp) {
   for (std::size_t j = 0; j < pins.joints.size(); ++j) EXPECT_LT(pins.joints[j].peak, 0.5 * centred.joints[j].peak) << pins.joints[j].name;
 }
 
-// What a rubbing pin asks of a worn guide is a moment: one end lies on each wall. It was sought on one wall, and the bar began 1.2 mm away from its guide, with 83 kN.
+// A pin that rubs requires a moment of a worn guide: one end lies on each wall. When it was sought on one wall, the bar began 1.2 mm away from its guide, with 83 kN.
 TEST(SeatedStart, AWornGuideTiltsUnderTheMomentOfAPinThatRubs) {
   for (const char* friction : {"lugre", "coulomb"}) {
     const Trajectory loose = completed(reference::test_model("needle_bar", {std::string("joint.B.friction=") + friction}));
@@ -101,7 +101,7 @@ TEST(SeatedStart, AWornGuideTiltsUnderTheMomentOfAPinThatRubs) {
   }
 }
 
-// Joints that follow their loads slowly begin with the forces that carry these, although no motion without a transient is found.
+// Joints that follow their loads slowly begin with the forces that carry these loads, although no motion without a transient is found.
 TEST(SeatedStart, WornPinsThatRubBeginWithTheForcesOfTightOnes) {
   const std::vector<std::string> brief{"simulate.duration=0.01"};
   const Trajectory loose = completed(reference::test_model("loom_slay", brief));
@@ -131,8 +131,8 @@ TEST(SeatedStart, ALittlePlayIsAlmostNone) {
   EXPECT_LT(last, 0.05);
 }
 
-// A beam of 20 kg and 100 N on two pins 0.15 mm further apart than its bushes: each leans against the outer side of its bush, 0.075 mm off and where
-// a circle of 0.1 mm lets it down. By hand: the pins carry 128.1 and 168.1 N upwards, and what leaning makes of it sideways.
+// A beam of 20 kg and 100 N on two pins 0.15 mm farther apart than its bushes: each leans against the outer side of its bush, 0.075 mm off and as low as a
+// circle of 0.1 mm allows. By hand: the pins carry 128.1 and 168.1 N upwards, and the sideways force that follows from the lean.
 TEST(SeatedStart, PlayTakesUpAMisfit) {
   const Trajectory run = completed(reference::test_model("beam_on_loose_pins", {"ground.markers.R=[\"1000.15 mm\", 0]"}));
   EXPECT_NEAR(value(run, 0, "joint.L.on_beam.fy[world]"), 128.07, 3);
@@ -153,7 +153,7 @@ TEST(SeatedStart, AMechanismWithoutPlayIsAssembled) {
   EXPECT_EQ(value(seated, 10, "joint.A.on_crank.fx[world]"), value(assembled, 10, "joint.A.on_crank.fx[world]"));
 }
 
-// A shaft that turns in a dry bush stands where load and friction meet, atan(mu) up the bush, whatever the duration of the run.
+// A shaft that turns in a dry bush starts where load and friction balance, atan(mu) up the bush, whatever the duration of the run.
 TEST(SeatedStart, AShaftClimbsItsBushForAnyDuration) {
   for (const double duration : {0.02, 0.1, 0.5, 2.0}) {
     const Trajectory run = completed(reference::shaft_in_bush(0.25, 30, "speed = 30", duration));
@@ -163,7 +163,7 @@ TEST(SeatedStart, AShaftClimbsItsBushForAnyDuration) {
   }
 }
 
-// The pin of the second of three parallel cranks cannot come to its side along the cranks: it would strain the others by thousands of newtons.
+// The pin of the second of three parallel cranks cannot move to its side along the cranks: it would strain the others by thousands of newtons.
 TEST(SeatedStart, APinThatOtherCranksHoldInTheMiddleIsLeftOpen) {
   const Trajectory run = completed(reference::test_model("coupling_rod_on_three_cranks", {"simulate.duration=0.01"}));
   EXPECT_LT(run.joints[2].peak, 100) << run.joints[2].name;

@@ -1,4 +1,4 @@
-// start = "settled": mechanisms that begin in static equilibrium, with contacts, clearances, friction and motors; what has none is named.
+// start = "settled": mechanisms that begin in static equilibrium, with contacts, clearances, friction and motors; bodies that have none are named.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 using reference::completed;
 using reference::value;
 
-// A lever of 4 kg on a pin, whose tip of 10 mm lies on a table: each carries half of its weight.
+// A lever of 4 kg on a pin, with its tip of 10 mm on a table: each carries half of its weight.
 std::string lever(const std::string& of_pin, const std::string& start) {
   return fmt::format(R"toml(
 format = 1
@@ -49,7 +49,7 @@ pin_radius = "10 mm"
 
 Trajectory run_of(const std::string& text) { return completed(parse_model(text, "settled.toml")); }
 
-// Loads that are small against the springs that carry them: the fluid of the first try is so thin that the body swings.
+// Loads that are small compared with the springs that carry them: the fluid of the first attempt is so thin that the body swings.
 TEST(SettledStart, SpringsStretchByWhatLoadsAsk) {
   const auto loaded = [](double torsion, double torque, double stiffness, double force) {
     return run_of(fmt::format(R"toml(
@@ -165,7 +165,7 @@ TEST(SettledStart, APendulumHangsUnlessItIsHeld) {
   EXPECT_TRUE(std::any_of(held.notes.begin(), held.notes.end(), [](const std::string& note) { return note.find("is not in equilibrium") != std::string::npos; }));
 }
 
-// A crank under `hold` whose servo carries 5 kg at 0.4 m: a spring beside the servo would leave its share when the run begins.
+// A crank under `hold` whose servo carries 5 kg at 0.4 m: a spring in parallel with the servo would drop its share when the run begins.
 TEST(SettledStart, AServoCarriesWhatItMoves) {
   const Trajectory run = run_of(R"toml(
 format = 1
@@ -193,7 +193,7 @@ position = 0
   EXPECT_LT(run.energy.kinetic_peak, 1e-12);
 }
 
-// The load of t = 0 counts, not that of later.
+// The load at t = 0 counts, not a later one.
 TEST(SettledStart, LoadsStandStill) {
   const Trajectory run = run_of(R"toml(
 format = 1
@@ -246,8 +246,8 @@ angle = 0
   }
 }
 
-// A lever whose spring is as short as it can be in line with its pin: it leaves that position when it is touched, for one of two where the spring
-// is unstretched, acos(3/4) to either side. Nothing acts there.
+// A lever whose spring is shortest in line with its pin: when disturbed, the lever leaves that position for one of two where the spring is unstretched,
+// acos(3/4) to either side. No force acts there.
 TEST(SettledStart, AnEquilibriumThatIsNotStableIsLeft) {
   for (const char* angle : {"0", "1 deg"}) {
     const Trajectory run = run_of(fmt::format(R"toml(
@@ -283,7 +283,7 @@ free_length = "0.2 m"
   }
 }
 
-// The tensions of the ropes by hand: the moments of both weights about the foot, and the load's weight.
+// The tensions of the ropes by hand: from the moments of both weights about the foot, and from the load's weight.
 TEST(SettledStart, ACraneHangsInItsRopes) {
   const Trajectory run = completed(reference::test_model("luffing_crane", {"simulate.duration=0.5 s"}));
   constexpr double kGravity = 9.81;  // the file's
@@ -295,7 +295,7 @@ TEST(SettledStart, ACraneHangsInItsRopes) {
   for (const LoadSummary& joint : run.joints) EXPECT_LT(joint.peak, 1.001 * joint.rms) << joint.name;
 }
 
-// A brake holds what has been held while the drum came to rest; its springs had been bent by the way there, and were as likely to push the load on.
+// A brake holds what was held while the drum came to rest. On the way there its springs had been bent, and they were as likely to push the load on.
 TEST(SettledStart, StictionTakesOverWhatWasHeld) {
   for (const char* friction : {"coulomb", "lugre"})
     for (const double torque : {100.0, 1000.0, -3000.0}) {
@@ -306,14 +306,14 @@ TEST(SettledStart, StictionTakesOverWhatWasHeld) {
     }
 }
 
-// Where nothing moves, the rounding of a speed is on either side of a kink in every step: 111,000 steps were refused.
+// Where nothing moves, the roundoff of a speed puts it on either side of a kink in every step: 111,000 steps were rejected.
 TEST(SettledStart, ARamThatRestsTakesFewSteps) {
   const Trajectory run = completed(reference::test_model("ram_on_its_stop"));
   EXPECT_LT(run.counters.steps + run.counters.rejected, 2000u);
   EXPECT_LT(run.counters.events, 100u);
 }
 
-// Creeping it rubs with its kinetic friction, which does not hold it; where it was assembled its static friction does.
+// While it creeps it rubs with its kinetic friction, which does not hold it; where it was assembled its static friction does.
 TEST(SettledStart, ABlockThatOnlyStictionHoldsStartsWhereItIs) {
   const Trajectory run = completed(reference::test_model("block_held_by_stiction"));
   EXPECT_NEAR(value(run, run.n_rows() - 1, "body.b.x"), value(run, 0, "body.b.x"), 1e-9);
@@ -332,14 +332,14 @@ TEST(SettledStart, LoosePinsThatStickComeToRest) {
   }
 }
 
-// It sinks long and steadily in the fluid in which its post no longer swings.
+// It sinks far and steadily in a fluid so thick that its post no longer swings.
 TEST(SettledStart, ARiderSinksIntoTheElastomerOfALoosePost) {
   const Trajectory run = completed(reference::test_model("seat_post_with_play"));
   EXPECT_NEAR(value(run, 0, "joint.rail.on_frame.fy[world]"), 80.7 * 9.80665, 1e-3);
   EXPECT_NEAR(run.joints[0].peak, 80.7 * 9.80665, 1e-2);
 }
 
-// Its tube sticks on the way down. Without friction the post sinks to its rest, and there it rests with friction, too.
+// The tube sticks on the way down. Without friction the post sinks to its rest position, and there it also rests with friction.
 TEST(SettledStart, APostThatSticksOnItsWayRestsWhereItWouldWithoutFriction) {
   const Trajectory run = completed(reference::test_model("seat_post_with_play", {"joint.tube.friction_coefficient=0.15", "joint.tube.static_friction=0.18", "joint.tube.stick_stiffness=1e7", "joint.tube.stick_damping=1e4"}));
   EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("the mechanism starts where it rests without friction") != std::string::npos; }));

@@ -1,4 +1,4 @@
-// What is short is seen, however long the steps are that come to it: blows, notches, bumps, fields of force, and the vibrations that a kink leaves behind.
+// Short features are seen, however long the steps are that lead to them: blows, notches, bumps, fields of force, and the vibrations that a kink leaves behind.
 // theory/time section 3.4.
 #include <gtest/gtest.h>
 
@@ -110,7 +110,7 @@ restitution = 0.5
                      "lip.toml");
 }
 
-// A cam of constant speed that lifts within 4 of 360 degrees and rests for the others, against a spring that holds its follower on it.
+// A cam of constant speed that lifts within 4 of 360 degrees and dwells for the rest, against a spring that holds its follower on it.
 Model cam_that_rests() {
   return parse_model(R"toml(
 format = 1
@@ -164,7 +164,7 @@ double largest_peak(const Trajectory& run) {
   return peak;
 }
 
-// Whatever the tolerance, as with steps that cannot miss it.
+// The result at any tolerance is that of steps too short to miss the feature.
 void expect_seen(Model model, double longest_step) {
   model.simulate.max_step = longest_step;
   model.simulate.tolerance = 1e-7;
@@ -191,7 +191,7 @@ TEST(ShortFeatures, ASlideIsHeldByTheNotchThatItPasses) {
   }
 }
 
-// An impulse of J = 200 N 5 ms sqrt(pi) at the end of a rod that hangs.
+// An impulse of J = 200 N 5 ms sqrt(pi) at the end of a hanging rod.
 TEST(ShortFeatures, ABlowMovesWhatHasHungStill) {
   for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
     Model model = hanging_rod("200 N*exp(-((t - 3 s)/(5 ms))^2)");
@@ -224,7 +224,8 @@ position = "20 deg*(1 + tanh((t - 3.3 s)/(20 ms)))"
 }
 
 TEST(ShortFeatures, AFieldOfForceIsSeen) { expect_seen(through_a_field(), 5e-4); }
-// A balanced rotor turns four times, and nothing accelerates it: its steps are as long as whole turns. A place on it passes a field 25 ms wide in each, which pushes the rotor at its centre.
+// A balanced rotor turns four times, and nothing accelerates it: its steps are as long as whole turns. In each turn a point on it passes a field 25 ms wide, which pushes the rotor at its
+// centre.
 TEST(ShortFeatures, AFieldThatAMarkerPassesInEveryTurnIsSeen) {
   for (const char* spin : {"25.05", "25.09", "25.138", "25.2"})
     for (const char* method : {"radau", "dopri5"}) {
@@ -259,7 +260,7 @@ force = [0, "100 + 20*exp(-((a.p.x - 0.1)/0.003)^2)"]
         const double x = 0.1 * std::cos(reference::value(run, row, "body.a.angle"));
         worst = std::max(worst, std::abs(std::abs(reference::value(run, row, "joint.o.on_a.fy[world]")) - 100 - 20 * std::exp(-std::pow((x - 0.1) / 0.003, 2))));
       }
-      EXPECT_LT(worst, 1e-4 * 120) << spin << ", " << method;  // the pin gives way by a micrometre, of the 3 mm of the field
+      EXPECT_LT(worst, 1e-4 * 120) << spin << ", " << method;  // the pin deflects by a micrometre, of the 3 mm of the field
       EXPECT_LT(run.counters.steps + run.counters.rejected, method == std::string("radau") ? 5000u : 50000u) << spin << ", " << method;
     }
 }
@@ -267,7 +268,8 @@ force = [0, "100 + 20*exp(-((a.p.x - 0.1)/0.003)^2)"]
 TEST(ShortFeatures, AnEdgesBumpIsSeen) { expect_seen(over_a_lip(), 2e-4); }
 TEST(ShortFeatures, ACamsLiftIsSeen) { expect_seen(cam_that_rests(), 2e-3); }
 
-// A load that begins to grow leaves a vibration of slope / omega in a joint without damping, and steps that are long against its period would damp it in all passes alike.
+// A load that begins to grow leaves a vibration of slope / omega in a joint without damping. Steps that are long compared with its period would damp it equally in all
+// passes.
 TEST(ShortFeatures, AKinkLeavesAVibrationBehind) {
   constexpr double kLoad = 50, kSlope = 2000, kKink = 0.1, kPinStiffness = 1e8;
   const Model base = parse_model(R"toml(
@@ -312,7 +314,7 @@ force = ["50 N + 2000 N/s*max(t - 0.1 s, 0 s)", 0]
     }
 }
 
-// Its points are known, however short they lie beside each other: a shock in a record of 20 s, and as many pulses as a periodic table has.
+// The points of a table are known, however close together they are: a shock in a record of 20 s, and all the pulses of a periodic table.
 TEST(ShortFeatures, PointsOfATableOfTime) {
   const auto beam = [](const std::string& table, const std::string& more) {
     return parse_model(R"toml(
@@ -357,7 +359,7 @@ force = [0, "shock(t)"]
   EXPECT_GT(run.joints.at(0).peak, 1400);
 }
 
-// A triangle of 20 us and 10 N s, whose flanks are as short as what is crossed at the start of a usual step.
+// A triangle of 20 us and 10 N s, whose flanks are as short as the part crossed at the start of a usual step.
 TEST(ShortFeatures, ASpikeOfAMillionthOfARecord) {
   Model model = reference::test_model("spike_in_a_force_record");
   for (const double tolerance : {1e-3, 1e-5, 1e-7}) {

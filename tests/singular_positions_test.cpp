@@ -30,7 +30,7 @@ struct Kind {
   std::string name, ground, joints;
   double start;  // angle of the crank
   std::vector<PinnedBar> bars;  // the crank first
-  std::function<std::vector<Pose>(double)> branch;  // where the bars are at an angle of the crank
+  std::function<std::vector<Pose>(double)> branch;  // poses of the bars at a crank angle
 };
 
 std::string text(const Kind& kind, double gravity, const std::string& settings) {
@@ -47,7 +47,7 @@ std::string pin(const std::string& name, const std::string& first, const std::st
   return fmt::format("[joint.{}]\ntype = \"revolute\"\nbetween = [\"{}\", \"{}\"]\n", name, first, second);
 }
 
-// Its bars come to lie on each other: the slider stands at the crank's pivot, and both could turn as one.
+// Its bars come to lie on each other: the slider is then at the crank's pivot, and both bars could turn as one.
 Kind equal_slider_crank() {
   return {"Slider-crank of equal bars", "O = [0, 0]",
           pin("O", "ground.O", "crank.O") + pin("A", "crank.A", "rod.A") + pin("B", "rod.B", "slider.c") + "[joint.S]\ntype = \"prismatic\"\nbetween = [\"ground.O\", \"slider.c\"]\n",
@@ -59,7 +59,7 @@ Kind equal_slider_crank() {
           }};
 }
 
-// A four-bar of these lengths, on the branch that `coupler` and `rocker` give.
+// A four-bar of these lengths, on the branch given by `angles` of coupler and rocker.
 Kind four_bar_kind(const std::string& name, double ground, double crank, double coupler, double rocker, double start, std::function<std::pair<double, double>(double)> angles) {
   const auto half = [](double length) { return fmt::format("markers.from = [{:.16g}, 0]\nmarkers.to = [{:.16g}, 0]", -length / 2, length / 2); };
   return {name, fmt::format("O2 = [0, 0]\nO4 = [{:.16g}, 0]", ground),
@@ -77,7 +77,7 @@ Kind parallelogram() {
   return four_bar_kind("Parallelogram", 0.5, 0.2, 0.5, 0.2, 1.0, [](double a) { return std::pair{0.0, a}; });
 }
 
-// Short crank and rocker that turn against each other: tan(psi/2) = k tan(a/2) with the ratio k of the sum and the difference of the lengths.
+// Short crank and rocker that turn in opposite senses: tan(psi/2) = k tan(a/2), with k the ratio of the sum to the difference of the lengths.
 Kind antiparallelogram() {
   const double ground = 0.5, crank = 0.2, k = (ground + crank) / (ground - crank);
   return four_bar_kind("Antiparallelogram", ground, crank, ground, crank, 1.0, [=](double a) {
@@ -106,7 +106,7 @@ Kind slotted_lever() {
           }};
 }
 
-// With a third crank the parallelogram has a constraint too many.
+// With a third crank the parallelogram has a redundant constraint.
 Kind three_cranks() {
   const auto crank = [](double at, double a) { return Pose{at + 0.1 * std::cos(a), 0.1 * std::sin(a), a}; };
   const std::string bar = "markers.from = [-0.1, 0]\nmarkers.to = [0.1, 0]";
@@ -124,7 +124,7 @@ std::vector<Kind> kinds() { return {equal_slider_crank(), parallelogram(), antip
 
 double angle_from(double angle) { return std::remainder(angle, 2 * M_PI); }
 
-// Kinetic energy over half the square of the crank's speed.
+// Kinetic energy divided by half the square of the crank's speed.
 double inertia(const Kind& kind, double angle) {
   constexpr double kStep = 1e-3;
   const std::vector<Pose> p[4] = {kind.branch(angle - 2 * kStep), kind.branch(angle - kStep), kind.branch(angle + kStep), kind.branch(angle + 2 * kStep)};
@@ -180,7 +180,7 @@ TEST(SingularPositionsSlow, IdealJointsGoOnAlongTheSmoothBranch) {
   }
 }
 
-// Bars that could move alone at the position are held there with arms of no length: reactions to a load across the branch have no bound.
+// Bars that could move alone at the position are held there with lever arms of zero length: reactions to a load across the branch have no bound.
 TEST(SingularPositionsSlow, IdealJointsGoOnUnderLoadsToo) {
   for (const Kind& kind : kinds()) {
     SCOPED_TRACE(kind.name);
@@ -201,7 +201,7 @@ TEST(SingularPositionsSlow, ReactionsOfAFreeParallelogramAreThoseOfTurningCranks
   }
 }
 
-// Each passage leaves the joints ringing at frequencies that go as the root of the stiffness, and the ringing is resolved.
+// Each passage leaves the joints ringing at frequencies proportional to the root of the stiffness, and the ringing is resolved.
 TEST(SingularPositionsSlow, StiffJointsPassAtMostTwentyTimesAsDearlyAsSoftOnes) {
   for (const Kind& kind : kinds()) {
     SCOPED_TRACE(kind.name);

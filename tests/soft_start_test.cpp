@@ -22,7 +22,7 @@ State crane_with_pins(const std::string& stiffness) {
   return start.state;
 }
 
-// The difference goes as the pins' compliance, and is nothing where that is.
+// The difference is proportional to the pins' compliance, and vanishes with it.
 TEST(SoftStart, TheLoadOfTheCraneBouncesAlikeOnPinsOfAnyStiffness) {
   const State limit = crane_with_pins("1e12");
   const double force = limit.force[kBushing].head<2>().norm(), rate = limit.gap_rate[kBushing].head<2>().norm();

@@ -1,5 +1,5 @@
-// Mechanisms in space against published and computed values: a free body (closed form), a heavy top on a spherical joint, Bricard's six hinges.
-// Figures from the benchmark collections named beside them. theory/space.
+// Mechanisms in space against published and computed values: a free body (closed form), a heavy top on a spherical joint, Bricard's six hinges. The figures
+// come from the benchmark collections named with them. theory/space.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,8 +44,8 @@ SpatialRun run(const SpatialSystem& system, const SpatialState& start, const std
   return out;
 }
 
-// L. D. Landau, E. M. Lifshitz, Mechanics, section 37: inertias 1, 2, 3 and almost a turn about the second axis. Omega at 5 and 10 s, and when the body has turned
-// over: half a period.
+// L. D. Landau, E. M. Lifshitz, Mechanics, section 37: inertias 1, 2, 3 and almost a pure rotation about the second axis. Omega at 5 and 10 s, and when the body
+// has turned over: half a period.
 TEST(Space, AFreeBodyTurnsOverWhenJacobisFunctionsSay) {
   SpatialSample free;
   free.system.bodies.push_back(sample::spatial_body("body", 1, {1, 2, 3}, Point::Zero()));
@@ -61,7 +61,7 @@ TEST(Space, AFreeBodyTurnsOverWhenJacobisFunctionsSay) {
     EXPECT_NEAR(at_5.v[0][3], -0.011325693900949457, 1e-6);
     EXPECT_NEAR(at_5.v[0][4], -4.999997172864967, 1e-6);
     EXPECT_NEAR(at_5.v[0][5], 0.01046058223902162, 1e-6);
-    // Half a period turns all but the third component: the crossing is known as well as that one's rate allows.
+    // Half a period reverses all but the third component: the crossing is known as accurately as the rate of that component allows.
     EXPECT_NEAR(flipped.v[0][3], -0.01, 1e-6);
     EXPECT_NEAR(flipped.v[0][4], -5, 1e-6);
     EXPECT_NEAR(flipped.v[0][5], 0.01, 1e-6);
@@ -84,7 +84,7 @@ TEST(Space, AHeavyTopCarriesTheKnownForces) {
     EXPECT_LT(wanted.angularDistance(done.states[0].q[0].r), 1e-6);
     for (int i = 0; i < 2; ++i) {
       const Point f = done.states[i].force[0].head<3>();
-      EXPECT_LT((f - expected[i]).norm(), 1e-5 * expected[i].norm());                                    // the ball gives way by F / k
+      EXPECT_LT((f - expected[i]).norm(), 1e-5 * expected[i].norm());                                    // the ball joint deflects by F / k
       EXPECT_LT((f - close.states[i].force[0].head<3>()).norm(), tolerance * expected[i].norm());
     }
   }
@@ -104,8 +104,8 @@ TEST(Space, BricardsHingesMoveAsComputed) {
   }
 }
 
-// Forces of all hinges keep the tolerance against a run that is a thousand times as tight, and converge as the stiffness grows: the ring's redundant condition
-// shares its load by the hinges' compliances.
+// Forces of all hinges keep the tolerance against a run with a tolerance a thousand times tighter, and converge as the stiffness grows: the hinges share the
+// load of the ring's redundant constraint by their compliances.
 TEST(Space, BricardsReactionsAreRightAndConvergeWithTheStiffness) {
   const std::vector<double> times{1, 2, 4, 7};
   const auto forces = [&times](double k, double tolerance) {
@@ -128,7 +128,7 @@ TEST(Space, BricardsReactionsAreRightAndConvergeWithTheStiffness) {
   EXPECT_NEAR(first / second, 10, 1);
 }
 
-// A wheel on a hinge: its free turn counts on past half a turn, inside steps too.
+// A wheel on a hinge: its free angle keeps counting beyond half a turn, within steps too.
 TEST(Space, AHingeCountsTurns) {
   SpatialSample spinning;
   spinning.system.bodies.push_back(sample::spatial_body("wheel", 2, {0.1, 0.1, 0.2}, Point::Zero()));
@@ -167,10 +167,10 @@ TEST(Space, APlanarFourBarGivesThePlanarForces) {
   for (std::size_t b = 0; b < planar.bodies.size(); ++b) EXPECT_LT((deep.state().q[b].p.head<2>() - flat.state().q[b].head<2>()).norm(), 1e-9);
 }
 
-// A run with a stated error at each of three tolerances, against one at 1e-9: what every joint carries is right within the tolerance, and the stated
-// error is between a third of the true one and thirty times it, but for the error that the run at 1e-9 states of itself. Hinges of 1e9 N/m that share a redundant condition cannot have 1e-9 of their forces, which
-// is less than the rounding of places in metres makes of them; that run has to be ten times better than the best.
-// `overstated`: a tolerance at which a hundred times is allowed.
+// Runs at three tolerances, each with a stated error, against one at 1e-9: each joint force is right within the tolerance, and the stated error is between a third of the true one and thirty times it, apart from
+// the error stated by the run at 1e-9 itself. Hinges of 1e9 N/m that share a redundant constraint cannot have forces to 1e-9, which is less than the roundoff of positions in metres causes; that run has to be ten
+// times better than the best.
+// `overstated`: a tolerance at which a factor of a hundred is allowed.
 void expect_promise(const SpatialSample& of, double duration, const std::string& what, double overstated = 0) {
   SimulateSettings settings;
   settings.duration = duration;
@@ -205,12 +205,12 @@ void expect_promise(const SpatialSample& of, double duration, const std::string&
 }
 
 TEST(SpaceRuns, AHeavyTopKeepsWhatItStates) { expect_promise(sample::heavy_top(1), 1, "top"); }
-// The force that the redundant condition leaves to the hinges' compliances: at 1e-3 the error is 5e-7 of the peak, and the difference
-// of the passes states ninety times that.
+// The hinges' compliances determine the force of the redundant constraint: at 1e-3 the error is 5e-7 of the peak, and the difference of the passes states
+// ninety times that.
 TEST(SpaceRunsSlow, BricardsHingesKeepWhatTheyState) { expect_promise(sample::bricard(1e9), 10, "Bricard", 1e-3); }
 TEST(SpaceRuns, AFreeChainKeepsWhatItStates) { expect_promise(sample::free_chain(4, 1e8), 2, "chain"); }
 
-// Nothing acts on the chain: its momentum stays, and its centre goes straight on.
+// No force acts on the chain: its momentum is constant, and its centre moves in a straight line.
 TEST(SpaceRuns, AFreeChainKeepsItsMomentum) {
   const SpatialSample chain = sample::free_chain(4, 1e8);
   SimulateSettings settings;
@@ -237,7 +237,7 @@ TEST(SpaceRuns, AFreeChainKeepsItsMomentum) {
   }
 }
 
-// What the recorder says of a joint is what the laws do: the ball of a top that does not spin hangs with its weight, and the energies are known.
+// The recorder reports what the laws do: a rod falls from the horizontal about its hinge, and the energies are known.
 TEST(SpaceRuns, APendulumsAccountAndPeakAreKnown) {
   SpatialSample rod;
   rod.system.bodies.push_back(sample::spatial_body("rod", 2, {1e-3, 0.04, 0.04}, {0, 0, -10}));
@@ -263,7 +263,7 @@ TEST(SpaceRuns, APendulumsAccountAndPeakAreKnown) {
   EXPECT_LT(done.result.energy.drift, settings.tolerance * done.result.energy.kinetic_peak);
 }
 
-// The tolerance is of the places: against a run at 1e-9.
+// The tolerance applies to positions: checked against a run at 1e-9.
 TEST(SpaceRuns, ARunOfTheMotionKeepsItsTolerance) {
   const SpatialSample top = sample::heavy_top(1);
   SimulateSettings settings;
@@ -281,7 +281,7 @@ TEST(SpaceRuns, ARunOfTheMotionKeepsItsTolerance) {
   }
 }
 
-// A force that grows e-fold every fifth of a second feeds a body without end, and is named.
+// A force that grows e-fold every fifth of a second feeds energy to a body without end, and is named.
 TEST(SpaceRuns, AForceThatFeedsWithoutEndIsNamed) {
   SpatialSample fed;
   fed.system.bodies.push_back(sample::spatial_body("body", 1, {1, 2, 3}, Point::Zero()));

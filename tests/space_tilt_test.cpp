@@ -12,7 +12,7 @@ namespace {
 using S = Spatial;
 using Point = S::Point;
 
-// A body on a ball joint, whose frames differ by `relative` at the start, after a second.
+// State after one second of a body on a ball joint whose frames differ by `relative` at the start.
 BasicState<S> swung(const Eigen::Matrix3d& relative) {
   BasicSystem<S> system;
   BasicBodyData<S> body;

@@ -1,5 +1,5 @@
-// Mechanisms in space for tests and benchmarks, with the sources of their figures: a heavy top, Bricard's six hinges, a free chain, and a
-// mechanism of the plane as one in space.
+// Mechanisms in space for tests and benchmarks, with the sources of their figures: a heavy top, Bricard's six hinges, a free chain, and a planar mechanism put
+// into space.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline BasicBodyData<Spatial> spatial_body(const std::string& name, double mass,
   return b;
 }
 
-/// What a joint holds: stiffness and damping of the positions [N/m, N*s/m], and of a hinge's tilts [N*m/rad, N*m*s/rad].
+/// What a joint resists with: stiffness and damping of the positions [N/m, N*s/m], and of a hinge's tilts [N*m/rad, N*m*s/rad].
 struct SpatialStiffness {
   double k = 0, c = 0, k_turn = 0, c_turn = 0;
 };
@@ -54,7 +54,7 @@ struct SpatialSample {
   SpatialState start;
   std::vector<std::string> notes;  // on the start
 
-  /// The start from these places and velocities with the joints loaded; `duration` [s] above 0: on their slow motion.
+  /// The start from these positions and velocities with the joints loaded; `duration` [s] above 0: on their slow motion.
   void start_at(const PositionsOf<Spatial>& q, const VecsOf<Spatial>& v, double duration = 0) {
     BasicSettledStart<Spatial> settled;
     settled.state.q = q;
@@ -78,8 +78,8 @@ inline SpatialSample heavy_top(double duration = 0) {
   return top;
 }
 
-/// IFToMM library of benchmark problems, A04: Bricard's mechanism, six hinges in a ring of five rods of 1 m and 1 kg, one of whose conditions is
-/// redundant; from rest. Hinges of k [N/m], a tenth of it in the tilts.
+/// IFToMM library of benchmark problems, A04: Bricard's mechanism, six hinges in a ring of five rods of 1 m and 1 kg, with one redundant constraint; from rest.
+/// Hinges of k [N/m], a tenth of it in the tilts.
 inline SpatialSample bricard(double k) {
   using Point = Spatial::Point;
   SpatialSample ring;
@@ -105,7 +105,7 @@ inline SpatialSample bricard(double k) {
 /// P3 of the ring, the joint of its third and fourth rod [m].
 inline Spatial::Point bricard_p3(const Spatial::Coordinates& third) { return third.p + third.r * Spatial::Point(0, 0, 0.5); }
 
-/// Rods of 0.5 m and 1 kg on spherical joints, one after the other at right angles, that touch nothing; thrown and spinning as one rigid body.
+/// Rods of 0.5 m and 1 kg on spherical joints, one after the other at right angles, joined to nothing else; thrown and spinning as one rigid body.
 inline SpatialSample free_chain(int rods, double k) {
   using Point = Spatial::Point;
   constexpr double half = 0.25;
@@ -133,7 +133,7 @@ inline SpatialSample free_chain(int rods, double k) {
   return chain;
 }
 
-/// A component of the plane in space: x, y and the turn about z.
+/// Where the components of the plane are in space: x, y and the turn about z.
 inline constexpr std::array<int, Planar::kDof> kInSpace{0, 1, Spatial::kTurn};
 inline Spatial::Vec in_space(const Planar::Vec& x) {
   Spatial::Vec y = Spatial::Vec::Zero();

@@ -1,4 +1,4 @@
-// Starts that users have met: where positions, speeds and preloads of a run's first instant come from, in whole runs.
+// Starts that users have met: where the positions, speeds and preloads of a run's first instant come from, in whole runs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,17 +20,17 @@ using reference::completed;
 using reference::test_model;
 using reference::value;
 
-// A belt only pulls: with the pretension of its spans, not with the push that their motion would ask of rods. The first pulley's bearing carries two spans
-// of 100 N, along an outer and an inner tangent.
+// A belt only pulls. It starts with the pretension of its spans, not with the push that their motion would require of rods. The first pulley's bearing carries
+// two spans of 100 N, along an outer and an inner tangent.
 TEST(Starts, ABeltWithPretensionPullsFromTheStartOn) {
   const Trajectory run = completed(test_model("belt_with_tensioner"));
   const double outer = std::asin((0.06 - 0.05) / 0.4), centres = std::hypot(0.2, 0.12), inner = std::atan2(-0.12, 0.2) + std::asin((0.05 - 0.03) / centres);
-  EXPECT_NEAR(value(run, 0, "joint.A.on_w1.fx[world]"), -100 * (std::cos(outer) + std::cos(inner)), 1.5);  // the bearings give way by 2 um each
+  EXPECT_NEAR(value(run, 0, "joint.A.on_w1.fx[world]"), -100 * (std::cos(outer) + std::cos(inner)), 1.5);  // the bearings deflect by 2 um each
   EXPECT_LT(run.joints[0].peak, 230);
   EXPECT_EQ(std::count_if(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("transient-free") != std::string::npos; }), 0);
 }
 
-// What a taut rope would have to push with, others carry from the start on.
+// Where a taut rope would have to push, the others carry the load from the start on.
 TEST(Starts, RopesThatTheLoadSlackensCarryNothing) {
   const Trajectory bar = completed(test_model("bar_on_three_ropes"));
   EXPECT_EQ(value(bar, 0, "joint.A.on_bar.fy[world]"), 0);
@@ -42,7 +42,7 @@ TEST(Starts, RopesThatTheLoadSlackensCarryNothing) {
   EXPECT_NEAR(belt.joints[3].peak, 200, 1e-2);
 }
 
-// One rope that stays as long as it is keeps the others slack: held all at once, they would fit no place of the plate.
+// One rope that keeps its length leaves the others slack: with all held at once, no position of the plate would fit.
 TEST(Starts, OneOfThreeRopesCarriesAPlateBesideItsCentre) {
   const Trajectory run = completed(test_model("plate_on_ropes_beside_its_centre"));
   EXPECT_EQ(run.joints[0].peak, 0);
@@ -57,21 +57,21 @@ TEST(Starts, MeshesOfTablesInSeriesStartWithTheirLoad) {
   EXPECT_NEAR(value(run, 0, "joint.g2.on_s.m[world]"), 40, 1e-2);
 }
 
-// m a = 1.5 kg r w^2 (1 + r/l) and the rod's share, whatever rubs in the slide: one turn later the bearing carries the same. The bristles' dampers at the rates that
-// the slide comes to soon are no friction of its start, of which they made 1 %.
+// m a = 1.5 kg r w^2 (1 + r/l) and the rod's share, whatever rubs in the slide: one turn later the bearing carries the same. The bristles' dampers, at the rates
+// that the slide soon reaches, are no part of the friction at its start; they made 1 % of its force.
 TEST(Starts, BristlesAtADeadCentreCarryNoMoreThanTheirFriction) {
   const Trajectory run = completed(test_model("slide_with_bristles_at_dead_centre"));
   for (std::size_t row = 0; row < 4; ++row) EXPECT_NEAR(value(run, row, "joint.O.on_crank.fx[world]"), value(run, row + 360, "joint.O.on_crank.fx[world]"), 1) << row;
 }
 
-// It rolls on its rack: where it stands in the plane makes the rounding of its gaps another one, and rang with up to 1e-4 of its force.
+// The wheel rolls on its rack. Its position in the plane changes the roundoff of its gaps, which used to ring with up to 1e-4 of its force.
 TEST(Starts, AWheelOnARackStartsAlikeWhereverItStands) {
   const Trajectory here = completed(test_model("eccentric_wheel_on_a_rack")), there = completed(test_model("eccentric_wheel_on_a_rack", {"parameters.x=\"3 m\"", "parameters.y=\"-2 m\""}));
   for (std::size_t row = 0; row < here.n_rows(); ++row)
     ASSERT_NEAR(value(here, row, "joint.guide.on_wheel.f2[joint]"), value(there, row, "joint.guide.on_wheel.f2[joint]"), 1e-5) << row;
 }
 
-// A cart and its wheels, of which the cart's velocity and the wheels' spins are stated, move as stated whichever the file lists first.
+// A cart and its wheels, with the cart's velocity and the wheels' spins stated, move as stated whichever the file lists first.
 TEST(Starts, VelocitiesDoNotDependOnTheOrderOfBodies) {
   const Model as_listed = test_model("cart_put_on_the_road");
   Model reversed = as_listed;
@@ -80,7 +80,7 @@ TEST(Starts, VelocitiesDoNotDependOnTheOrderOfBodies) {
   for (const char* column : {"body.cart.spin", "body.wl.vx", "body.wr.vx"}) EXPECT_NEAR(value(run, 0, column), value(other, 0, column), 1e-6) << column;
 }
 
-// The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the cam.
+// The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the weight of the cam.
 TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
   const Model model = test_model("cam_on_ball_bearing");
   const Trajectory run = completed(model);
@@ -89,7 +89,7 @@ TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
   EXPECT_LT(run.joints[0].peak, 200);
 }
 
-// What presses the guide at first is rounding: it does not stick beyond what the load lets it carry.
+// At first only roundoff presses the guide: its friction must not exceed what its load allows.
 TEST(Starts, AGuideThatNothingPressesDoesNotJam) {
   Model model = test_model("cam_on_ball_bearing");
   model.joints[0].law = {};
@@ -100,7 +100,7 @@ TEST(Starts, AGuideThatNothingPressesDoesNotJam) {
   }
 }
 
-// A ball bearing has no stiffness at its centre, and starts at the deflection that carries its load nevertheless.
+// A ball bearing has no stiffness at its centre. It starts at the deflection that carries its load nevertheless.
 TEST(Starts, BearingsOfBallsStartWithTheForcesOfLinearPins) {
   const Model balls = test_model("four_bar_of_ball_bearings");
   Model pins = balls;
@@ -110,15 +110,15 @@ TEST(Starts, BearingsOfBallsStartWithTheForcesOfLinearPins) {
   EXPECT_NEAR(run.joints[0].peak, other.joints[0].peak, 2e-3 * other.joints[0].peak);
 }
 
-// Sweeps that have not converged are no start: the mechanism begins at rest, with the pressure times the area in its cylinder.
+// Sweeps that have not converged give no start: the mechanism begins at rest, with the pressure times the area in its cylinder.
 TEST(Starts, AMechanismAtRestStaysAtRestWhereNoSlowMotionIsFound) {
   const Trajectory run = completed(test_model("scissor_lift_at_rest"));
   EXPECT_LT(run.energy.kinetic_start, 1e-6);
   EXPECT_NEAR(run.joints.back().peak, 7e6 * kPi / 4 * 0.063 * 0.063, 1);
 }
 
-// The linear film that the start is looked for with does not end at the bush, nor does it turn stiff there: what it lacks is no start. The largest force is that
-// of the motion, 2.9 to 3.3 kN, and was up to 124 kN at t = 0, with the pin four clearances off.
+// The start is sought with a linearised film, which neither ends at the bush nor stiffens there: a start whose load the film itself does not carry is rejected.
+// The largest force is that of the motion, 2.9 to 3.3 kN; it was up to 124 kN at t = 0, with the pin four clearances off.
 TEST(Starts, APinInOilStartsInItsBush) {
   for (const double angle : {30.0, 60.0, 90.0, 150.0})
     for (const char* friction : {"stribeck", "none"}) {
@@ -128,7 +128,7 @@ TEST(Starts, APinInOilStartsInItsBush) {
     }
 }
 
-// Bristles do not bend in the short motion in which the slow start is looked for: the guide's couple goes with the radius of the pin that rubs.
+// Bristles do not bend in the short motion on which the slow start is sought: the guide's couple varies smoothly with the radius of the rubbing pin.
 TEST(Starts, BristlesOfAPinAtRestDoNotMoveTheSoftGuideBesideIt) {
   Model model = test_model("strut_with_rubbing_pin");
   model.simulate.duration = 0.002;
@@ -177,7 +177,7 @@ TEST(Starts, ABodyThatAssemblyMovesFarIsNoted) {
   EXPECT_NE(notes.find("is a unit missing?"), std::string::npos) << notes;
 }
 
-// A motor decides how fast its crank starts; whoever states another speed is told.
+// The motor sets the speed at which its crank starts; a note says so if another speed is stated.
 TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   Model model = test_model("two_bouncing_pins");
   EXPECT_EQ(notes_of(model).find("not with the stated"), std::string::npos);
@@ -194,7 +194,7 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
 }
 
-// A lever 18 mm above its cam is not assembled, and falls onto it after a raw start, which moves nothing that is stated.
+// A lever 18 mm above its cam is not assembled. After a raw start, which moves nothing that is stated, it falls onto the cam.
 TEST(Starts, AContactThatNothingBringsTogetherStartsApartWhereItIsRaw) {
   Model model = test_model("lever_above_a_cam");
   try {
@@ -233,7 +233,7 @@ TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   EXPECT_EQ(notes_of(test_model("rotor_on_balls", {"joint.brg.play=\"20 um\""})).find("start in the middle"), std::string::npos);  // it is pressed through its play
 }
 
-// Differentiated over nanoseconds, rounding of the gaps becomes a speed: the velocities of a start are those of assembly, whatever the duration of the run.
+// Differentiated over nanoseconds, roundoff of the gaps becomes a speed: the velocities of a start are those of assembly, whatever the duration of the run.
 TEST(Starts, VelocitiesAreThoseOfAssemblyWhateverTheDuration) {
   for (const char* duration : {"0.05", "0.2", "1"}) {
     const std::vector<std::string> run{std::string("simulate.duration=") + duration, std::string("simulate.output_step=") + duration, "simulate.start=\"assembled\"", "simulate.tolerance=0.01"};
@@ -246,7 +246,7 @@ TEST(Starts, VelocitiesAreThoseOfAssemblyWhateverTheDuration) {
   }
 }
 
-// What hangs still cannot ring, nor what joints do not touch.
+// Neither a mechanism that hangs still nor bodies that no joint touches can ring.
 TEST(Starts, NoTransientIsNotedWhereNothingMoves) {
   EXPECT_EQ(notes_of(test_model("scissor_jack")).find("no transient-free start"), std::string::npos);
   EXPECT_EQ(notes_of(test_model("ball_on_stiff_linear_contact", {"simulate.duration=0.1"})).find("no transient-free start"), std::string::npos);
@@ -265,7 +265,8 @@ TEST(Starts, PulleysThatOverlapAreNoted) {
   EXPECT_NE(notes_of(reference::mechanism("belt_drive", {"parameters.apart=\"150 mm\""})).find("joint upper: its discs overlap by 0.05 m"), std::string::npos);
 }
 
-// Methods that carry no gaps cannot tell a rope that is slack by more than half of what a turn of the drum winds from a taut one: the run says so, and is not "completed".
+// Methods that do not carry gaps cannot tell a rope that is slack by more than half of what a turn of the drum winds from a taut one: the run says so, and is not
+// "completed".
 TEST(Starts, ARopeThatIsSlackByATurnIsFollowedOrEndsTheRun) {
   const Trajectory followed = completed(test_model("rope_slack_by_a_turn"));
   EXPECT_EQ(at_end(followed, "joint.rope.tension"), 0);
@@ -285,14 +286,14 @@ TEST(Starts, MotorsThatContradictEachOtherAreNamed) {
   EXPECT_EQ(notes_of(model).find("drive a mechanism"), std::string::npos);
 }
 
-// A soft thread that is to carry the inertia of its lever from the first instant on would turn this lever twice.
+// If a soft thread had to carry the inertia of its lever from the first instant on, its preload would turn this lever twice.
 TEST(Starts, APreloadTurnsNoBodyManyTimes) {
   const Trajectory run = completed(test_model("check_spring_lever"));
   EXPECT_NEAR(value(run, 0, "body.lever.angle"), 0, 1e-3);
-  EXPECT_NEAR(run.joints.at(2).peak, 3.4713, 0.03) << run.joints.at(2).name;  // of ideal joints
+  EXPECT_NEAR(run.joints.at(2).peak, 3.4713, 0.03) << run.joints.at(2).name;  // with ideal joints
 }
 
-// The reaction of a rod that slides on its tip is that of the friction of its slip: m g/(1 + 3 cos^2 + 3 mu sin cos).
+// The reaction of a rod that slides on its tip includes the friction of its slip: m g/(1 + 3 cos^2 + 3 mu sin cos).
 TEST(Starts, ATipThatSlidesRubsFromTheStartOn) {
   for (const double friction : {0.0, 0.2, 0.5}) {
     const Trajectory run = completed(test_model("rod_that_slides_on_its_tip", {"joint.floor.friction_coefficient=" + std::to_string(friction)}));
@@ -302,7 +303,7 @@ TEST(Starts, ATipThatSlidesRubsFromTheStartOn) {
   }
 }
 
-// Its bodies do not touch there; the pole's sleeve is at the angle that is held.
+// The bodies of the joint do not touch there; the pole's sleeve is at the angle that is held.
 TEST(Starts, WhatIsHeldMaySayWhereAJointIsInItsPlay) {
   EXPECT_NEAR(value(completed(test_model("sleeve_tilted_in_its_play")), 0, "body.s.angle"), 0.05, 1e-12);
   EXPECT_THROW(simulate(test_model("sleeve_tilted_in_its_play", {"body.s.angle=0.15"})), AssemblyError);  // 1.5 mm at the ends, of 1 mm

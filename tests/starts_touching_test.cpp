@@ -1,4 +1,4 @@
-// Bodies that are put onto what carries them press on it from the first row on. theory/assembly section 3.
+// Bodies that start on their supports press on them from the first row on. theory/assembly section 3.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ namespace {
 
 using reference::value;
 
-// The second marker above the x axis of the first one, at least by the radius; a spring of 1e8 N/m with a power of the depth.
+// The second marker stays above the x axis of the first one, by the radius at least; a spring of 1e8 N/m with a power of the depth.
 std::string contact(const std::string& name, const std::string& first, const std::string& second, double radius, double exponent = 1) {
   return fmt::format("[joint.{}]\ntype = \"slot\"\nbetween = [\"{}\", \"{}\"]\nlaw = \"contact\"\npin_radius = {}\ncontact_stiffness = 1e8\ncontact_exponent = {}\n", name, first, second, radius, exponent);
 }
 
-// Starts of contacts may ring; these do not, and no note says so.
+// Starts in contact may ring; these do not, and no note says that they may.
 Trajectory quiet_touching_run(const std::string& text) {
   Trajectory run = simulate(parse_model("format = 1\n" + text, "touching"));
   EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
@@ -119,7 +119,7 @@ TEST(StartsTouching, ARodBetweenWallAndFloorFallsWithTheReactionsOfItsBeginning)
   EXPECT_LE(run.joints.at(1).peak, 0.75 * weight * s * c * (1 + 1e-3));
 }
 
-// The centre of a plank is outside of its two supports: the far one would have to hold it down. About the near one, N = m g k^2 / (k^2 + d^2).
+// The centre of a plank is outside its two supports: the far one would have to hold it down. About the near one, N = m g k^2 / (k^2 + d^2).
 TEST(StartsTouching, ASupportThatWouldHavePulledDoesNot) {
   const std::string supports = R"toml(
 [simulate]
@@ -142,7 +142,7 @@ markers.near = [-0.2, 0, "180 deg"]
   EXPECT_LE(run.joints.at(1).peak, exact * (1 + 1e-2));
 }
 
-// What touches as it comes is an impact.
+// A touch with an approach speed is an impact.
 TEST(StartsTouching, ABallThatFallsOntoTheFloorAsTheRunBeginsBounces) {
   const Trajectory run = simulate(parse_model(R"toml(format = 1
 [simulate]
@@ -162,14 +162,14 @@ markers.c = [0, 0]
   EXPECT_NEAR(fastest, 0.5, 0.02);
 }
 
-// Assembly takes no velocity from what only a slack rope joins.
+// Assembly does not change the velocity of a body that is joined only by a slack rope.
 TEST(StartsTouching, ASlackRopeLeavesItsBallTheVelocityThatIsStated) {
   const Trajectory run = reference::completed(reference::test_model("rope_that_snaps", {"simulate.duration=0.01"}));
   EXPECT_NEAR(value(run, 0, "body.ball.vx"), 1, 1e-12);
   EXPECT_NEAR(value(run, 0, "body.ball.vy"), 2, 1e-12);
 }
 
-// The latch's contact creeps under its load more slowly than anything else moves, and the motion on which it was thought to start had seven times the load.
+// The latch's contact creeps under its load more slowly than anything else moves. The slow motion on which it was taken to start had seven times the load.
 TEST(StartsTouching, ALatchWhoseToeSticksCarriesTheTorqueAndNoMore) {
   const Trajectory run = reference::completed(reference::test_model("latch_that_sticks"));
   const double exact = 20 * kPi / 2 / 0.1;  // the torque of the spring at the arm of the toe
@@ -177,7 +177,7 @@ TEST(StartsTouching, ALatchWhoseToeSticksCarriesTheTorqueAndNoMore) {
   for (const LoadSummary& joint : run.joints) EXPECT_LE(joint.peak, exact * (1 + 2e-3)) << joint.name;
 }
 
-// Contacts that are hardly touched are so soft that the person would sink between them: they are taken with the stiffness that they have under the load.
+// Contacts that hardly touch are so soft that the person would sink between them: they are given the stiffness that they have under the load.
 TEST(StartsTouching, APersonStandsOnHeelAndToe) {
   const Trajectory run = reference::completed(reference::test_model("standing_person"));
   const double weight = 70 * 9.80665, of_foot = 1.2 * 9.80665, toe = (weight * 0.05 + of_foot * 0.1) / 0.23;

@@ -1,4 +1,4 @@
-// What nothing presses, and what nothing drives, starts without a force. theory/assembly sections 4 and 6.
+// Joints that nothing presses, and motors with nothing to drive, start without a force. theory/assembly sections 4 and 6.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-// A follower that hangs under its cam, free to fall, while the cam's pin gives way to the cam's weight.
+// A follower that hangs under its cam, free to fall, while the cam's pin deflects under the cam's weight.
 TEST(StartsWithoutLoad, AFollowerFallsAwayFromItsCam) {
   const Model model = parse_model(R"toml(
 format = 1
@@ -59,8 +59,8 @@ contact_exponent = 1
   EXPECT_NEAR(run.joints[0].peak, 3 * kStandardGravity, 1e-4);
 }
 
-// A mass that rides on a belt at the belt's speed, on a spring that is not stretched yet: the belt's motor has nothing to do at first, whatever the mass weighs. It
-// sticks until the spring has static friction to carry, mu_s m g = k v t.
+// A mass that rides on a belt at the belt's speed, on a spring that is not stretched yet: the belt's motor has nothing to do at first, whatever the mass weighs.
+// The mass sticks until the spring force reaches static friction, mu_s m g = k v t.
 TEST(StartsWithoutLoad, AMotorWithNothingToDoHasNoForce) {
   const Model model = parse_model(R"toml(
 format = 1
@@ -110,7 +110,7 @@ free_length = 2
   EXPECT_NEAR(run.events[0].events.back().t, loose, 1e-3 * loose);
 }
 
-// Nothing acts at the start, so that there is no force to measure errors by.
+// Nothing acts at the start, so there is no force by which to measure errors.
 TEST(StartsWithoutLoad, AMotorThatIsSwitchedOnSlowlyTurnsIdealJoints) {
   Model model = parse_model(R"toml(
 format = 1

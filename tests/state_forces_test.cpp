@@ -1,4 +1,4 @@
-// Forces that read where bodies are and how they move: against springs that do the same. A published one: reference_macpherson_test.cpp.
+// Forces that depend on positions and velocities of bodies, against springs that do the same. A published case: reference_macpherson_test.cpp.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-// A block on a prismatic guide, held by a spring and a damper, or by a force that reads its place and speed.
+// A block on a prismatic guide, held by a spring and a damper, or by a force that reads its position and speed.
 std::string held_by(const char* what, const char* equations = "newtonian") {
   return fmt::format(R"toml(
 format = 1
@@ -50,7 +50,7 @@ TEST(StateForces, ASpringWrittenAsAForceIsThatSpring) {
     }
 }
 
-// A torque that reads the angle of a body, from a marker turned against it.
+// A torque that reads the angle of a body from a marker turned relative to it.
 TEST(StateForces, ATorqueReadsTheAngleOfItsMarker) {
   const Trajectory run = simulate(parse_model(R"toml(
 format = 1
@@ -81,7 +81,7 @@ torque = "-8 N*m/rad*(wheel.m.angle - 0.2 rad)"
   EXPECT_NEAR(run.at(run.n_rows() - 1, angle), 0.1 * std::cos(4.0), 1e-7);  // sqrt(8 / 0.5) = 4 rad/s
 }
 
-// A thruster at the corner of a body that flies and turns: its force, less the faster it goes, in the body's axes and in the world's.
+// A thruster at the corner of a body that flies and turns: its force, which falls as the speed grows, in the body's axes and in the world's.
 std::string thrusted_by(const char* axes, const char* force, const char* equations) {
   return fmt::format(R"toml(
 format = 1

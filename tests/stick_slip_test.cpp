@@ -1,4 +1,4 @@
-// Coulomb's friction where it sticks: it goes on with the force that it slipped with.
+// Coulomb friction at the onset of sticking: it continues with the force of slip.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using reference::completed;
 
-// A mass of 2 kg that a spring of k pulls along the floor, whose far end moves at a speed; of 10 m/s^2.
+// A mass of 2 kg, pulled along the floor by a spring of stiffness k whose far end moves at `speed`; gravity is 10 m/s^2.
 Model pulled_slider(double k, double speed, double kinetic, double stuck, double duration) {
   Model model = parse_model(reference::pulled_mass(10, fmt::format("friction = \"coulomb\"\nfriction_coefficient = {}\nstatic_friction = {}\n", kinetic, stuck), 2, k, speed), "pulled_slider.toml");
   model.simulate.duration = duration;
@@ -22,7 +22,7 @@ Model pulled_slider(double k, double speed, double kinetic, double stuck, double
   return model;
 }
 
-// Round numbers, where the speed comes to nothing just as a row or a step ends.
+// Round numbers, for which the speed vanishes just as a row or a step ends.
 TEST(StickSlip, SticksWithTheFrictionThatItSlippedWith) {
   struct Case {
     double k, speed, kinetic, stuck;
@@ -49,7 +49,7 @@ TEST(StickSlip, SticksWithTheFrictionThatItSlippedWith) {
     }
 }
 
-// A slider that is pulled ever harder breaks loose where the spring of its stiction carries the static friction: V t = F/k + F/k_t - c_t/k_t V k/k_t: stuck, it moves with V k/k_t.
+// A slider pulled ever harder breaks loose when its stiction spring carries the static friction: V t = F/k + F/k_t - c_t/k_t V k/k_t; while stuck, it moves with V k/k_t.
 TEST(StickSlip, BreaksLooseOnTime) {
   Model model = pulled_slider(100, 0.05, 0.3, 0.4, 2);
   model.simulate.tolerance = 1e-7;
@@ -60,7 +60,7 @@ TEST(StickSlip, BreaksLooseOnTime) {
   EXPECT_NEAR(run.events[0].events[0].t * speed, F / k + F / k_t - c_t / k_t * speed * k / k_t, 1e-12);
 }
 
-// What a joint has turned into heat while it stuck is what its spring had stored, F^2/(2 k_t); while it slipped, friction times way.
+// The heat of a joint while it sticks is what its spring had stored, F^2/(2 k_t); while it slips, friction times distance.
 TEST(StickSlip, HeatIsThatOfEachStretch) {
   const Trajectory run = completed(pulled_slider(100, 0.05, 0.3, 0.5, 6));
   const std::vector<JointEvent>& events = run.events.at(0).events;
@@ -87,7 +87,7 @@ TEST(StickSlip, ABlockThatStopsOnASlopeStays) {
   }
 }
 
-// What gives way does not turn back a shaft that begins to turn, nor its friction. Torques, with the pressure F of the mesh, the tension T and the friction t.
+// Deflections reverse neither a shaft that begins to turn nor its friction. Torques, with the force F of the mesh, the tension T and the friction t.
 TEST(StickSlip, FrictionResistsTheMotorThatStarts) {
   for (const auto& [mu, r] : {std::pair{0.2, 0.020}, std::pair{0.3, 0.100}}) {
     const Trajectory run = completed(reference::test_model("hoist_against_friction", {fmt::format("parameters.mu={}", mu), fmt::format("parameters.r={}", r)}));
@@ -105,7 +105,7 @@ TEST(StickSlip, FrictionResistsTheMotorThatStarts) {
   }
 }
 
-// A block of 2 kg that is pushed to and fro on a dry guide sticks and slips; nothing holds it with more than static friction, whatever the method.
+// A block of 2 kg, pushed to and fro on a dry guide, sticks and slips; the guide never holds it with more than static friction, whatever the method.
 TEST(StickSlip, NoMethodTellsMoreThanStaticFriction) {
   constexpr double kWeight = 2 * kStandardGravity, kStuck = 0.4;
   for (const char* method : {"radau", "dopri5", "ode45", "ode15s", "ode113", "hht"}) {
@@ -116,7 +116,7 @@ TEST(StickSlip, NoMethodTellsMoreThanStaticFriction) {
   }
 }
 
-// A sled that comes to rest without turning round slips on, at next to no speed. What an event crossed late is compensated by may turn it past zero: friction went on driving it.
+// A sled that comes to rest without reversing slips on, at almost no speed. The compensation of an event crossed late may take it past zero: friction then drove it on.
 TEST(StickSlip, FrictionTurnsWithASledThatALoadTurns) {
   // 60 x" = 800 - 1000 (x + 0.2 - 1 + 1) - 100 x' - 100 sign(x'), from where 100 N of friction have left it
   constexpr double kMass = 60, kStiffness = 1000, kDamping = 100, kFriction = 100, kPull = 800, kJump = 0.5, kAt = 1.44;
@@ -131,7 +131,7 @@ TEST(StickSlip, FrictionTurnsWithASledThatALoadTurns) {
       while (run.at(row, 0) < t - 1e-9) ++row;
       return row;
     };
-    // Before it turns back, on a decaying swing about where the pull less friction is carried.
+    // Before it turns back: a decaying swing about the position where the spring carries the pull less friction.
     const double before = reference::value(run, row_at(kJump) - 1, "body.sled.x"), unloaded = 0.8 - 1, middle = unloaded + (kPull - kFriction) / kStiffness, swing = before - middle;
     const double turns = kJump + std::numbers::pi / omega;
     ASSERT_GT(turns, 1.2);
@@ -143,7 +143,7 @@ TEST(StickSlip, FrictionTurnsWithASledThatALoadTurns) {
   }
 }
 
-// The lock that finds the load of what sticks gave way by 2 rad, and the friction had the sign that the spring would have there.
+// The lock that finds the load of a sticking joint used to deflect by 2 rad, and the friction had the sign that the spring would have there.
 TEST(StickSlip, WhatSticksSoftlyDoesNotStartAgainstItsFriction) {
   constexpr double kWeight = 2 * kStandardGravity, kArm = 0.6, kInertia = 0.8 + 2 * kArm * kArm, kSpring = 500, kRadius = 0.05, kKinetic = 0.2;
   double force = 0;
@@ -155,14 +155,14 @@ TEST(StickSlip, WhatSticksSoftlyDoesNotStartAgainstItsFriction) {
   }
 }
 
-// It slips when the pull reaches the static friction, whatever the scale.
+// It slips when the pull reaches the static friction, at any scale.
 TEST(StickSlip, HasNoScaleOfItsOwn) {
   const Trajectory run = completed(reference::test_model("cube_of_ten_micrometres"));
   ASSERT_FALSE(run.events.empty());
   EXPECT_NEAR(run.events.at(0).events.at(0).t, 0.3 * 2.33e-12 * kStandardGravity / 1e-11, 1e-6);
 }
 
-// A runner on a track is loaded most just before it breaks away, 5 us after a force has jumped: no step saw the last 4e-5 of that.
+// A runner on a track carries its largest load just before it breaks away, 5 us after a force has jumped: no step saw the last 4e-5 of that.
 TEST(StickSlip, WhatBreaksAwayWasLoadedWithAllThatHeldIt) {
   const double most = 3 * kStandardGravity * std::hypot(1, 0.3);
   for (const Equations equations : {Equations::kNewtonian, Equations::kRelative})
@@ -175,10 +175,10 @@ TEST(StickSlip, WhatBreaksAwayWasLoadedWithAllThatHeldIt) {
     }
 }
 
-// Bristles that nothing presses push nobody, and grew without a bound: the run failed where the load came. Each half swing then costs 2 M / k of the angle.
+// Bristles that nothing presses exert no force, and grew without bound: the run failed when the load came. Each half swing then costs 2 M / k of the angle.
 TEST(StickSlip, BristlesThatNothingHasPressedHoldAsOthersDo) {
   constexpr double kSpring = 1000, kInertia = 0.01, kFriction = 0.1 * 100 * 0.01;
-  const double rate = std::sqrt(kSpring / kInertia), half_swings = (0.4 + 0.05) * rate / std::numbers::pi;  // of the full load; on the ramp of 0.1 s it is half as much on average
+  const double rate = std::sqrt(kSpring / kInertia), half_swings = (0.4 + 0.05) * rate / std::numbers::pi;  // at the full load; half as much on average on the ramp of 0.1 s
   for (const double tolerance : {1e-3, 1e-5}) {
     Model model = reference::test_model("wheel_on_unpressed_bristles");
     model.simulate.tolerance = tolerance;
@@ -187,7 +187,7 @@ TEST(StickSlip, BristlesThatNothingHasPressedHoldAsOthersDo) {
   }
 }
 
-// Where a surface begins to slip its friction jumps, by a step of 1e-14 s: a curve through that was 0.3 % above both sides.
+// When a surface begins to slip its friction jumps, within a step of 1e-14 s: a curve through that jump was 0.3 % above both sides.
 TEST(StickSlip, ThePeakOfAFrictionThatJumpsIsOnOneOfItsSides) {
   for (const char* tolerance : {"1e-5", "1e-7"}) {
     const Trajectory run = completed(reference::test_model("ball_to_a_wall", {"body.ball.mass=1.04034", "body.ball.inertia=0.000942975", std::string("simulate.tolerance=") + tolerance}));

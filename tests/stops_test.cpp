@@ -1,4 +1,4 @@
-// Stops of angles and slides in whole runs: closed forms of what bounces and rests, balances, every method.
+// Stops of angles and slides in whole runs: closed forms of bouncing and of rest, balances, every method.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ upper_stop = "200 mm"
                      "thrown.toml");
 }
 
-// A door on a hinge without weight, turned by a torque.
+// A door on a hinge without gravity, turned by a torque.
 Model door(const std::string& stops, double torque, double spin, const std::string& more = "") {
   return parse_model(fmt::format(R"toml(
 format = 1
@@ -79,7 +79,7 @@ torque = "{} N*m"
                      "door.toml");
 }
 
-// Between a let-go and the next touch the mass flies the whole way between the stops, at a speed that each impact has multiplied by e.
+// Between a release and the next touch the mass flies the whole distance between the stops, at a speed that each impact has multiplied by e.
 TEST(Stops, BetweenTwoHardStopsAMassKeepsTheRestitutionAskedFor) {
   const double e = 0.7, way = 0.3;
   for (const double exponent : {1.0, 1.5}) {
@@ -97,7 +97,7 @@ TEST(Stops, BetweenTwoHardStopsAMassKeepsTheRestitutionAskedFor) {
   }
 }
 
-// The first half of an impact against a spring without loss: a quarter of its period to the depth v sqrt(m/k), half a period in all.
+// The first half of an impact against a lossless spring: a quarter of its period to the depth v sqrt(m/k), half a period in all.
 TEST(Stops, AnElasticStopIsHalfAPeriodOfItsSpring) {
   const double k = 2e4, w = std::sqrt(k / kDoorMass);
   Model model = thrown_door(fmt::format("stops = \"hard\"\nstop_stiffness = {}\nstop_restitution = 1", k));
@@ -124,7 +124,7 @@ TEST(Stops, AnElasticStopIsHalfAPeriodOfItsSpring) {
   EXPECT_EQ(bounced.events[0].events[2].what, "touch of the lower stop");
 }
 
-// A moment presses a door against its stop: it comes to rest at the depth M / k, and the stop gives -M.
+// A moment presses a door against its stop: the door comes to rest at the depth M / k, and the stop gives -M.
 TEST(Stops, ADoorRestsWhereTheStopCarriesTheMoment) {
   const double torque = 3, k = 600;
   for (const std::string stops : {"stops = \"hard\"\nstop_stiffness = 600\nstop_model = \"linear\"\nstop_damping = 8", "stops = \"cushioned\"\nstop_stiffness = 600\nstop_damping = 8\nstop_cushion = \"0.2 deg\""}) {
@@ -164,7 +164,7 @@ TEST(Stops, ACushionBrakesAsItsEquationSays) {
   EXPECT_NEAR(run.end.dissipated, 0.5 * kInertia * (spin * spin - y[1] * y[1]) - (y[0] > 0 ? 0.5 * k * y[0] * y[0] : 0), 1e-6);
 }
 
-// Friction beside a stop is what it is without one: a joint force along the slide is the sum of both, and each has a column of its own.
+// Friction with a stop is the same as without one: the joint force along the slide is the sum of both, and each has a column of its own.
 TEST(Stops, FrictionAndStopsHaveColumnsOfTheirOwn) {
   const Trajectory run = completed(thrown_door("stops = \"hard\"\nstop_stiffness = 1e5\nstop_restitution = 0.6\nfriction = \"stribeck\"\nfriction_coefficient = 0.2\nstatic_friction = 0.2\nfriction_preload = 1", "1 s"));
   double most = 0, stop = 0;
@@ -179,7 +179,7 @@ TEST(Stops, FrictionAndStopsHaveColumnsOfTheirOwn) {
   EXPECT_LT(drift(run), 1e-5);
 }
 
-// A slot's pin runs along it between stops and turns freely; in a loose pin's bush the stops of the angle act beside the clearance.
+// A slot's pin moves along it between stops and turns freely; with a loose pin the stops of the angle act in addition to the clearance in its bush.
 TEST(Stops, StandBesideEveryLawOfTheJoint) {
   Model slot = thrown_door("stops = \"hard\"\nstop_stiffness = 1e6");
   slot.joints[0].type = "slot";
@@ -223,7 +223,7 @@ TEST(Stops, OfIdealJointsAreLostAndSaidToBe) {
   EXPECT_TRUE(says(completed(model)));
 }
 
-// As deep as carries its load, from the start on: 30 g L/2 + 500 N L.
+// From the start on the lever is as deep in its stop as its load requires: 30 g L/2 + 500 N L.
 TEST(Stops, WhatBeginsAtAStopIsCarriedByIt) {
   const Trajectory run = completed(reference::test_model("lever_on_its_stop"));
   const double load = 30 * 9.80665 + 500, moment = 30 * 9.80665 * 0.5 + 500;
@@ -235,7 +235,7 @@ TEST(Stops, WhatBeginsAtAStopIsCarriedByIt) {
   EXPECT_EQ(reference::value(lifted, 0, "joint.O.stop_moment"), 0);
 }
 
-// The pressure presses on the stop, too: 50 bar on a piston of 50 mm, and 1000 N that pull.
+// The pressure presses on the stop, too: 50 bar on a piston of 50 mm, and a pull of 1000 N.
 TEST(Stops, ACylinderThatBeginsAtItsStrokeEndIsCarriedByIt) {
   const Trajectory run = completed(reference::test_model("cylinder_at_its_stroke_end"));
   EXPECT_NEAR(reference::value(run, 0, "joint.c.force"), -1000, 1e-2);

@@ -50,7 +50,7 @@ contact_exponent = 1
 constexpr double kDisc = 0.5 * 2 * 0.05 * 0.05;
 constexpr const char* kRough = "friction_coefficient = 0.3\nstatic_friction = 0.4\n";
 
-// An edge of no height is the straight one of a pin: a disc is set onto it, slides and then rolls.
+// An edge of zero height is the same as a pin's straight one: a disc is set onto it, slides and then rolls.
 TEST(EdgeContact, OfAFlatEdgeIsThatOfAStraightOne) {
   const std::string simulate = "duration = \"0.4 s\"", motion = "velocity = [\"1.5 m/s\", 0]\nspin = \"-2 rad/s\"";
   const Trajectory curved = completed(disc_on(std::string("type = \"edge\"\nheight = 0\nfrom = -1\nto = 1\nroller_radius = 0.05\n") + kRough, simulate, "[0, 0.049999]", kDisc, motion));
@@ -69,14 +69,14 @@ TEST(EdgeContact, OfAFlatEdgeIsThatOfAStraightOne) {
   EXPECT_NEAR(value(curved, end, "joint.J.contact_x"), value(curved, end, "body.disc.x"), 1e-9);
 }
 
-// A disc that rolls down a fixed cylinder of 0.4 m from 10 degrees beside its top: energy gives its speed, that the forces, and these the angle at
-// which it begins to slip.
+// A disc rolls down a fixed cylinder of 0.4 m from 10 degrees off its top: energy gives its speed, the speed the forces, and these the angle at which it
+// begins to slip.
 void expect_rolling_down_a_cylinder(const std::string& surface) {
   constexpr double kRadius = 0.45, kFirst = 0.17453292519943295, kMass = 2;
   const Trajectory run = completed(disc_on(surface + kRough, "duration = \"0.6 s\"", fmt::format("[{:.17g}, {:.17g}]", kRadius * std::sin(kFirst), kRadius * std::cos(kFirst)), kDisc));
   double slips_at = 0;
   int rows = 0;
-  for (std::size_t i = 50; i < run.n_rows() && slips_at == 0; ++i) {  // the spring of surfaces that stick takes up its load at first
+  for (std::size_t i = 50; i < run.n_rows() && slips_at == 0; ++i) {  // at first the spring of surfaces that stick takes up its load
     const double angle = std::atan2(value(run, i, "body.disc.x"), value(run, i, "body.disc.y"));
     if (value(run, i, "joint.J.stuck") == 0) {
       slips_at = angle;
@@ -94,7 +94,7 @@ void expect_rolling_down_a_cylinder(const std::string& surface) {
     const double a = 0.5 * (low + high);
     (std::sin(a) / 3 < 0.4 * (std::cos(a) - 4.0 / 3 * (std::cos(kFirst) - std::cos(a))) ? low : high) = a;
   }
-  EXPECT_NEAR(slips_at, low, 5e-3);  // the row behind it
+  EXPECT_NEAR(slips_at, low, 5e-3);  // the row after it
 }
 
 TEST(EdgeContact, ADiscRollsDownAHillUntilItSlips) {
@@ -116,7 +116,7 @@ TEST(EdgeContact, ADiscRollsToAndFroInAHollow) {
   }
 }
 
-// A flat face on an eccentric circle that turns: its guide feels the friction, the shaft its moment about the axis.
+// A flat face on an eccentric circle that turns: its guide carries the friction, the shaft the moment of the friction about its axis.
 struct Solver {
   const char *name, *simulate;
   double tolerance;
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(Equations, FlatFollower, testing::Values(Solver{"Radau"
                                          Solver{"RelativeDopri5", "equations = \"relative\"\nmethod = \"dopri5\"", 1e-4}, Solver{"Ode15s", "method = \"ode15s\"", 1e-5}),
                          [](const auto& of) { return std::string(of.param.name); });
 
-// Friction of the catalog in a grooved cam, pressed by the cam's own force.
+// A friction law of the catalog in a grooved cam, pressed by the cam's own force.
 TEST(CamFriction, IsTheCoefficientTimesTheForceOfTheGroove) {
   Model model = reference::mechanism("cam_follower", {"simulate.duration=0.15 s"});
   Joint& cam = *std::find_if(model.joints.begin(), model.joints.end(), [](const Joint& joint) { return joint.name == "cam"; });

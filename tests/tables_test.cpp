@@ -19,7 +19,7 @@ const MotorSummary& motor_of(const Trajectory& run, const std::string& name) {
   return *std::find_if(run.motors.begin(), run.motors.end(), [&](const MotorSummary& motor) { return motor.name == name; });
 }
 
-// The engine of the collection turned at constant speed.
+// The engine of the collection, turned at constant speed.
 Model motored_engine(Equations equations, const std::string& interpolation) {
   Model model = reference::mechanism("engine", {"table.pressure.interpolation=" + interpolation, "simulate.duration=40 ms"});
   for (Motor& motor : model.motors)
@@ -29,7 +29,7 @@ Model motored_engine(Equations equations, const std::string& interpolation) {
   return model;
 }
 
-// Of p dV over one cycle of two turns, from the file itself: Simpson's rule on straight pieces of the pressure.
+// The integral of p dV over one cycle of two turns, from the file itself: Simpson's rule on straight pieces of the pressure.
 double indicated_work() {
   const std::string file = "gas_pressure.csv";
   const FileColumns found = read_file_columns(file, read_file(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + file), {ColumnChoice{"", 1}, ColumnChoice{"", 2}});
@@ -57,7 +57,7 @@ TEST(Tables, TheGasOfAnEngineDoesItsIndicatedWorkInACycle) {
   reference::set_joints(model, 2e10, 3e4);
   const Trajectory stiff = simulate(model);
   ASSERT_EQ(stiff.outcome, Outcome::kCompleted) << stiff.message;
-  EXPECT_NEAR(motor_of(stiff, "gas").work, work, 1e-4 * work);  // joints give way by a micrometre
+  EXPECT_NEAR(motor_of(stiff, "gas").work, work, 1e-4 * work);  // joints deflect by a micrometre
   EXPECT_GT(stiff.counters.events, 200U);                       // one at each point at which the slope changes, in each pass
   EXPECT_LT(std::abs(stiff.energy.drift), 1e-5 * stiff.energy.kinetic_peak);
   const Trajectory smooth = simulate(motored_engine(Equations::kIdeal, "spline"));
@@ -111,7 +111,7 @@ double speed_at(double t) {
   return t < change ? low * (1 - std::exp(-0.07 * t / J)) : high + (100 - high) * std::exp(-0.21 * (t - change) / J);
 }
 
-// The curvature of a monotone table jumps at its points: steps end at few points that are far apart, and go over many that are close together.
+// The curvature of a monotone table jumps at its points: steps end at points that are few and far apart, and pass over points that are many and close together.
 TEST(Tables, StepsEndWhereTheCurvatureJumpsByMuch) {
   for (const double tolerance : {1e-4, 1e-5, 1e-6}) {
     Model model = reference::test_model("force_by_four_points");
@@ -137,7 +137,7 @@ TEST(Tables, AMotorRunsUpAlongItsCurve) {
   struct Case {
     Equations equations;
     const char* method;
-    double tolerance;  // of the speed, relative; the pin carries no force, so that only steps that end at the knee are as good as the last bits
+    double tolerance;  // relative, of the speed; the pin carries no force, so that only steps that end at the knee are accurate to the last bits
   };
   for (const Case& c : {Case{Equations::kNewtonian, "auto", 1e-7}, {Equations::kRelative, "auto", 1e-7}, {Equations::kRelative, "dopri5", 1e-4}, {Equations::kIdeal, "auto", 1e-6}, {Equations::kNewtonian, "ode15s", 1e-4}}) {
     const Trajectory run = simulate(run_up(c.equations, c.method));
@@ -199,7 +199,7 @@ position = "lift(40 rad/s*t)"
   }
 }
 
-// A mass between two springs of a table: while it is on the soft one and on the hard one its motion is known.
+// A mass between two springs given by a table: its motion is known on the soft part and on the hard part.
 TEST(Tables, AMassSwingsOnASpringWithAKnee) {
   const Model model = parse_model(R"toml(
 format = 1

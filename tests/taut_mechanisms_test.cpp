@@ -1,5 +1,5 @@
-// Mechanisms in which geometric stiffness rules: pulled taut at their limit, or pressed with bars in line. What they are to do is found
-// with steps so short that they resolve it. theory/time section 4.1.
+// Mechanisms in which geometric stiffness dominates: pulled taut at their limit, or pressed with bars in line. The expected results come from steps so short
+// that they resolve the motion. theory/time section 4.1.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ Trajectory resolved(Model model, double longest) {
   return simulate(model);
 }
 
-// Over each joint's peak, as runs measure their own errors.
+// Relative to each joint's peak, as runs measure their own errors.
 double largest_force_error(const Trajectory& run, const Trajectory& fine) {
   double largest = 0, worst = 0;
   for (const LoadSummary& joint : fine.joints) largest = std::max(largest, joint.peak);
@@ -57,8 +57,8 @@ double peak(const Trajectory& run, const std::string& joint) {
 struct TautCase {
   const char* model;
   double duration;
-  std::uint64_t loose, steps;  // at most, at 1e-3 and 1e-5: twice what has been measured
-  double longest;              // step of the run to compare with
+  std::uint64_t loose, steps;  // upper limits at 1e-3 and 1e-5: twice the measured numbers
+  double longest;              // step of the reference run
 };
 constexpr TautCase kTautCases[] = {{"toggle_under_load", 2, 450, 1300, 1e-3}, {"press_at_dead_centre", 2, 550, 850, 1e-3}, {"shallow_truss", 1, 800, 2000, 2e-4}, {"chain_pulled_taut", 0.5, 20000, 40000, 1e-4}};
 
@@ -75,7 +75,7 @@ TEST(TautMechanismsSlow, ForcesAreThoseOfShortSteps) {
   }
 }
 
-// A clamp that is all but at rest: its forces follow from where it is, not from what it accelerates, and steps as long as the motion would miss them.
+// A clamp that is nearly at rest: its forces follow from its position, not from its acceleration, and steps as long as the motion allows would miss them.
 TEST(TautMechanisms, StepsFollowLoadsThatStiffenWithPlaces) {
   for (const double duration : {0.97, 0.99, 1.0, 1.01}) {
     const Trajectory run = simulate(taut_model("toggle_under_load", duration));
@@ -87,8 +87,8 @@ TEST(TautMechanisms, StepsFollowLoadsThatStiffenWithPlaces) {
   }
 }
 
-// In line, stroke less rest is what piece and joints yield by, in series: for the toggle 5.2 mm at 1e7 and three times 1e8 N/m, for the press
-// 2 mm at 2e8 and three times 1e9 N/m, with 1157.6 N of weights on its pins. What is moving still adds a little.
+// In line, stroke less rest length is the deflection of piece and joints in series: for the toggle 5.2 mm at 1e7 and three times 1e8 N/m, for the press 2 mm at
+// 2e8 and three times 1e9 N/m, with 1157.6 N of weights on its pins. The remaining motion adds a little.
 TEST(TautMechanisms, BarsInLineCarryWhatStiffnessesInSeriesDo) {
   for (const double tolerance : {1e-3, 1e-5}) {
     const double toggle = peak(simulate(taut_model("toggle_under_load", 2, tolerance)), "K");
@@ -99,8 +99,7 @@ TEST(TautMechanisms, BarsInLineCarryWhatStiffnessesInSeriesDo) {
   }
 }
 
-// Two bars of length L0 at rest, each on two pins of stiffness k and damping c: P = (k (L0 - L) - c L') h/L, and the servo moves 5 kg and a
-// third of each bar.
+// Two bars of unloaded length L0, each on two pins of stiffness k and damping c: P = (k (L0 - L) - c L') h/L, and the servo moves 5 kg and a third of each bar.
 TEST(TautMechanisms, ATrussIsPressedThroughAlongItsEquilibria) {
   const double k = 1e7, c = 2000, span = 0.5, rise = 0.02, L0 = std::hypot(span, rise), mass = 5 + 2.0 / 3, w = std::numbers::pi / 2;
   for (const double tolerance : {1e-3, 1e-5}) {
@@ -119,7 +118,7 @@ TEST(TautMechanisms, ATrussIsPressedThroughAlongItsEquilibria) {
   }
 }
 
-// Pulled taut, the bars carry T/d with d the distance of their line from the motor's pin, and swing about that.
+// Pulled taut, the bars carry T/d, with d the distance of their line from the motor's pin, and swing about that value.
 TEST(TautMechanisms, ALockedFourBarCarriesItsMotorsTorque) {
   for (const double tolerance : {1e-3, 1e-5}) {
     const Trajectory run = simulate(collected_taut("locked_four_bar", tolerance));
@@ -151,7 +150,7 @@ TEST(TautMechanisms, TheRunSaysThatTheMechanismHasComeToItsLimit) {
     EXPECT_TRUE(noted(run, "the angle of joint O can go no further than 122.005 deg, where joints A, B and C are in line. Motor drive kept pushing: with 145")) << run.notes.front();
     EXPECT_TRUE(noted(run, "deg behind")) << run.notes.front();
   }
-  // A stiff motor comes there when its speed says, whatever it does later.
+  // A stiff motor reaches the limit when its speed says, whatever it does later.
   for (const double duration : {0.178, 0.3}) {
     Model model = locked;
     model.simulate.duration = duration;
@@ -167,7 +166,7 @@ TEST(TautMechanisms, TheRunSaysThatTheMechanismHasComeToItsLimit) {
   EXPECT_FALSE(noted(simulate(back), "limit"));
 }
 
-// The drive pushes hardest at the other limit, which the mechanism passes when its joints have long given way.
+// The drive pushes hardest at the other limit, which the mechanism passes long after its joints have yielded.
 TEST(TautMechanisms, TheLimitIsTheFirstThatItCameTo) {
   const Trajectory run = simulate(reference::test_model("double_rocker_driven"));
   EXPECT_TRUE(noted(run, "came to its limit at t = 0.01572 s: the angle of joint O2 can go no further than 75.5225 deg")) << run.notes.front();
@@ -175,7 +174,7 @@ TEST(TautMechanisms, TheLimitIsTheFirstThatItCameTo) {
   EXPECT_FALSE(noted(run, "past the limit")) << "of another limit: " << run.notes.front();
 }
 
-// Ideal joints cannot give way: the run ends there, and says why.
+// Ideal joints cannot deflect: the run ends there, and says why.
 TEST(TautMechanisms, IdealJointsStopAtTheLimit) {
   Model model = collected_taut("locked_four_bar", 1e-5);
   model.simulate.equations = Equations::kIdeal;
@@ -185,7 +184,7 @@ TEST(TautMechanisms, IdealJointsStopAtTheLimit) {
   EXPECT_NE(run.message.find("can go no further than 122.005 deg, where joints A, B and C are in line; motor drive commands more. What followed: "), std::string::npos) << run.message;
 }
 
-// A start that no preload can be found for, half a hundredth of a degree before the limit, and a switch of the command's formula where the run ends.
+// A start for which no preload can be found, half a hundredth of a degree before the limit, and a command whose formula switches where the run ends.
 TEST(TautMechanisms, StartsAndEndsAtSpecialPlacesAreNoFailures) {
   Model model = collected_taut("locked_four_bar", 1e-4);
   const double crank = 122.0 * std::numbers::pi / 180, ax = 0.2 * std::cos(crank), ay = 0.2 * std::sin(crank), line = std::atan2(-ay, 0.3 - ax);
@@ -203,8 +202,8 @@ TEST(TautMechanisms, StartsAndEndsAtSpecialPlacesAreNoFailures) {
   EXPECT_NEAR(pressed.t_end, 4, 1e-11);
 }
 
-// The explicit method finds 1.494053e6 N after 0.4 s too, in half a million steps. Before bodies were held, runs of 0.6 s and more took
-// millions of steps and came to 1e13 N.
+// The explicit method also finds 1.494053e6 N after 0.4 s, in half a million steps. Before bodies were held, runs of 0.6 s and more took millions of steps and
+// reached 1e13 N.
 TEST(TautMechanismsSlow, AFourBarIsPulledTautAndLetGo) {
   for (const double duration : {0.4, 0.6, 1.0, 1.5}) {
     const Model model = taut_model("four_bar_at_its_limit", duration);
@@ -227,7 +226,7 @@ TEST(TautMechanismsSlow, ASixBarIsPulledTautForSeconds) {
   EXPECT_LT(run.counters.steps, 220000u);
 }
 
-// With the rocker's pin in relative coordinates; what the other three then carry is 2.0e6 N.
+// With the rocker's pin in relative coordinates; the other three then carry 2.0e6 N.
 TEST(TautMechanismsSlow, RelativeCoordinatesHoldTautBodiesAlike) {
   for (const double duration : {0.6, 1.0}) {
     Model model = taut_model("four_bar_at_its_limit", duration);
@@ -243,7 +242,7 @@ TEST(TautMechanismsSlow, RelativeCoordinatesHoldTautBodiesAlike) {
   }
 }
 
-// Its account closes, and what it loses does not come back in the flight that follows.
+// Its energy account closes, and what it loses does not come back in the flight that follows.
 TEST(TautMechanismsSlow, ARopeThatSnapsLosesItsStretchOnce) {
   const Trajectory run = reference::completed(reference::test_model("rope_that_snaps"));
   EXPECT_LT(run.energy.drift, 1e-4 * run.energy.kinetic_peak);
@@ -251,11 +250,11 @@ TEST(TautMechanismsSlow, ARopeThatSnapsLosesItsStretchOnce) {
     ASSERT_GE(reference::value(run, row, "energy.dissipated"), reference::value(run, row - 1, "energy.dissipated") - 1e-6 * run.energy.kinetic_peak) << run.at(row, 0);
 }
 
-// m x'' + c x' + k x = m g from x = 0, x' = (2 g 20 mm)^(1/2): 679.389 N at the most.
+// m x'' + c x' + k x = m g from x = 0, x' = (2 g 20 mm)^(1/2): at most 679.389 N.
 TEST(TautMechanisms, EveryMethodFallsIntoADampedRope) {
   for (const char* method : {"radau", "dopri5", "ode15s"})
     for (const char* equations : {"newtonian", "relative"}) {
-      if (std::string(method) == "ode15s" && std::string(equations) == "relative") continue;  // which that method does not step
+      if (std::string(method) == "ode15s" && std::string(equations) == "relative") continue;  // not available with that method
       const Trajectory run = simulate(reference::test_model("weight_into_a_rope", {fmt::format("simulate.method=\"{}\"", method), fmt::format("simulate.equations=\"{}\"", equations)}));
       EXPECT_NEAR(run.at(run.n_rows() - 1, 0), 0.3, 1e-12) << method << ", " << equations << ": " << run.message;
       EXPECT_NEAR(run.joints[1].peak, 679.389, 0.02) << method << ", " << equations;

@@ -1,4 +1,4 @@
-// Friction of teeth: what passes a mesh, a rack and a planetary gear against the balance of moments.
+// Friction of teeth: moments transmitted by a mesh, a rack and a planetary gear, against the balance of moments.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -72,22 +72,22 @@ torque = {:.17g}
 constexpr const char* kLaws[] = {"Coulomb", "LuGre", "Stribeck", "CoulombAndBacklash"};
 class TeethFriction : public testing::TestWithParam<const char*> {};
 
-// The motor carries the load over the ratio, and friction: T1 = F (r1 + l'), T2 = F (r2 - l').
+// The motor carries the load over the ratio, plus friction: T1 = F (r1 + l'), T2 = F (r2 - l').
 TEST_P(TeethFriction, TakesItsShareOfThePower) {
   const Trajectory run = completed(gear_pair(std::string(GetParam()) + "friction_coefficient = 0.1\nstatic_friction = 0.1\n", 30));
   const double force = 30 / (0.12 - kLever), moment = force * (0.06 + kLever);
   EXPECT_NEAR(at_end(run, "motor.drive.effort"), moment, 1e-4 * moment);
   EXPECT_NEAR(at_end(run, "joint.mesh.friction_power"), kLever * force * 75, 1e-3);
   EXPECT_NEAR(at_end(run, "joint.mesh.radial_force"), force * std::tan(kAlpha), 1e-3 * force);
-  // Power in, less what friction takes, is power out: the efficiency of the mesh.
+  // Power in less friction power is power out: the efficiency of the mesh.
   const double passes = 30 * 25 / (at_end(run, "motor.drive.effort") * 50);
   EXPECT_NEAR(1 - passes, kMu * kSliding * (1 / 0.06 + 1 / 0.12) / std::cos(kAlpha), 2e-4);
 }
 INSTANTIATE_TEST_SUITE_P(Laws, TeethFriction, testing::Values("friction = \"coulomb\"\n", "friction = \"lugre\"\n", "friction = \"stribeck\"\n", "friction = \"coulomb\"\nlaw = \"backlash\"\nbacklash = \"0.1 mm\"\ncontact_stiffness = 1e8\nrestitution = 0.5\n"),
                          [](const auto& of) { return std::string(kLaws[of.index]); });
 
-// A ring that stands, a carrier that drives, a sun that is driven: the planet turns against both, and its two meshes lose
-// mu l w (Fs/cos a) each, with the turns against the sun and against the ring.
+// A fixed ring, a driving carrier, a driven sun: the planet turns relative to both, and its two meshes lose mu l w (Fs/cos a) each, with w the spin relative to
+// the sun and to the ring.
 TEST(PlanetaryFriction, IsThatOfTheRelativeTurns) {
   constexpr double kSun = 0.03, kPlanet = 0.02, kRing = kSun + 2 * kPlanet, kSpeed = 20;
   const double sun = kSpeed * (1 + kRing / kSun), planet = kSpeed * (1 - kRing / kPlanet);

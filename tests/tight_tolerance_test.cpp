@@ -1,4 +1,4 @@
-// The tightest tolerances: what is at rounding costs no endless steps, and the forces are what was asked for.
+// The tightest tolerances: quantities at roundoff do not cost endless steps, and the forces are as accurate as asked for.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 namespace pintle {
 namespace {
 
-// Accelerations at the start of a step differ from those inside it by what the step before has moved positions onto their gaps, and
-// by rounding. Steps that tried to resolve either were a million times too short.
+// Accelerations at the start of a step differ from those inside it by roundoff, and because the previous step has moved positions onto their gaps. Steps that
+// tried to resolve either were a million times too short.
 TEST(TightTolerance, IsMetInStepsOfTheMotion) {
   for (const char* name : {"inverted_slider_crank", "scissor_lift"}) {
     Model model = reference::mechanism(name);
@@ -21,7 +21,7 @@ TEST(TightTolerance, IsMetInStepsOfTheMotion) {
   }
 }
 
-// Springs and gravity of a thousand newtons cancel to their rounding, and the guide carries nothing: there is nothing to resolve.
+// Spring forces and gravity of a thousand newtons cancel to roundoff, and the guide carries nothing: there is nothing to resolve.
 TEST(TightTolerance, NothingMovesInFewSteps) {
   Model model = reference::test_model("two_masses_at_rest");
   for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
@@ -32,7 +32,7 @@ TEST(TightTolerance, NothingMovesInFewSteps) {
   }
 }
 
-// The rounding of an angle of a hundred radians is a couple beside that of a servo that only keeps a small rotor turning.
+// The roundoff of an angle of a hundred radians gives a couple comparable with that of a servo that only keeps a small rotor turning.
 TEST(TightTolerance, TakesStepsOfTheMotionWhereAServoIsStiffForItsInertia) {
   Model model = reference::test_model("whirling_rotor");
   const double peak = simulate(model).joints.front().peak;
@@ -42,8 +42,8 @@ TEST(TightTolerance, TakesStepsOfTheMotionWhereAServoIsStiffForItsInertia) {
   EXPECT_NEAR(run.joints.front().peak, peak, 1e-5 * peak);
 }
 
-// A blow is a thousand times as large as what the slope carries before it. Passes for a tolerance of that come near rounding, which no step resolves: steps that tried to were
-// millions.
+// A blow is a thousand times as large as what the slope carries before it. Passes whose tolerance is relative to the small load come near roundoff, which no step resolves:
+// there were millions of steps that tried to.
 TEST(TightTolerance, SmallForcesBesideLargeOnesCostNoEndlessSteps) {
   Model model = reference::test_model("ball_to_a_wall");
   for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
@@ -68,7 +68,7 @@ TEST(TightTolerance, ALooseOneCostsNoMoreThanATightOne) {
   }
 }
 
-// Places are rounded: from rest no step comes nearer to an event than that, and what ends before one over and over has come to it.
+// Positions are rounded: from rest no step can come nearer to an event than that, and a run whose steps end before one over and over has reached it.
 TEST(TightTolerance, AStrutPressesOnItsStopInFewSteps) {
   for (const double tolerance : {1e-4, 1e-5, 1e-6}) {
     Model model = reference::test_model("strut_on_its_stop");
@@ -78,7 +78,7 @@ TEST(TightTolerance, AStrutPressesOnItsStopInFewSteps) {
   }
 }
 
-// The guide of a mass at its own centre carries a couple of a millionth of a newton metre, below what the rounding of a hundred radians makes of its stiffness.
+// The guide of a mass at its own centre carries a couple of a millionth of a newton metre, below the roundoff of a hundred radians times the guide's stiffness.
 TEST(TightTolerance, CouplesOfRoundingTakeNoSteps) {
   Model model = reference::test_model("mass_in_a_turning_guide");
   for (const double tolerance : {1e-5, 1e-6, 1e-7}) {
@@ -89,7 +89,7 @@ TEST(TightTolerance, CouplesOfRoundingTakeNoSteps) {
   }
 }
 
-// A shoe that is pressed onto its drum by a force that grows from nothing. Steady, its friction brakes the drum with 34.286 N m.
+// A shoe pressed onto its drum by a force that grows from zero. In the steady state its friction brakes the drum with 34.286 N m.
 TEST(TightTolerance, ABodyWithoutLoadIsNotMeasuredByIts) {
   Model model = reference::test_model("shoe_on_a_drum");
   for (const double tolerance : {1e-3, 1e-5, 1e-7}) {

@@ -1,4 +1,4 @@
-// What a pin with clearance and its bush wear off each other, around both of them.
+// Wear of a pin with clearance and of its bush, around both of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using reference::completed;
 using reference::mechanism;
 
-// A disc of 2 kg whose pin hangs in its bush and turns ten times in it.
+// A disc of 2 kg whose pin hangs in its bush and turns in it ten times.
 Model spinning_disc() {
   return parse_model(R"toml(
 format = 1
@@ -48,8 +48,8 @@ wear_coefficient = "1e-15 m^2/N"
 
 double sum(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0); }
 
-// The bush is worn below the pin, in the directions from 265 to 275 degrees, and the pin all around. By the momentum, the contact has carried the weight:
-// W = R w m g T.
+// The bush is worn below the pin, in the directions from 265 to 275 degrees, and the pin all around. By the balance of momentum, the contact has carried the
+// weight: W = R w m g T.
 TEST(Wear, APinThatTurnsInItsBushWearsTheBottomOfTheBushAndAllOfItself) {
   const Trajectory run = completed(spinning_disc());
   ASSERT_EQ(run.wear.size(), 1U);
@@ -102,7 +102,7 @@ TEST(Wear, OfAPinWithoutClearanceIsNotTold) {
   EXPECT_NE(run.bearings.front().remarks.back().find("law = \"clearance\""), std::string::npos);
 }
 
-// A loaded pin that a servo swings by 0.8 rad and back without friction: every sector that it passes twice carries 2 F R times its width, the last one its part of that.
+// A loaded pin that a servo swings by 0.8 rad and back without friction: each sector passed twice carries 2 F R times its width, the last one in proportion to its part.
 TEST(Wear, SectorsOfASwingCarryTheirPartOfTheWay) {
   Model model = reference::shaft_in_bush(0, 0, "position = \"0.4*(1-cos(2*pi*t/1 s))\"", 1);
   const double width = 2 * std::numbers::pi / 72, whole = 2 * 400 * 0.012 * width, last = 2 * 400 * 0.012 * (0.8 - 9 * width);

@@ -1,22 +1,22 @@
 #!/usr/bin/env python3
-"""Checks the order of the rooms and the habits that a compiler does not see; prints every breach and exits with 1.
+"""Checks the order of the rooms and the conventions that a compiler does not check; prints every breach and exits with 1.
 
-  - a file in src/<room> includes nothing of a room on its right; laws and joints do not see each other;
-  - a file in src/<room>/<folder> includes nothing of a folder of that room on its right;
+  - a file in src/<room> includes nothing from a room to its right; laws and joints do not see each other;
+  - a file in src/<room>/<folder> includes nothing from a folder of that room to its right;
   - nothing in src/ includes the program, tests or benchmarks; a public header includes public headers only;
-  - outside src/start nothing of that room but start/start.h is included;
-  - no reference to a System is without const: what changes a system returns another;
+  - outside src/start only start/start.h of that room is included;
+  - every reference to a System is const: functions that change a system return another;
   - no file has more than 500 lines, no function more than 100;
   - no vague names in files and types; no notes to self;
   - every file that states the program's version states that of CMakeLists.txt;
-  - no constant or type of one name in two headers: the linker would give one's value or code to the readers of the other.
+  - no constant or type has the same name in two headers: the linker would use one's value or code for both.
 """
 import pathlib
 import re
 import sys
 
 ROOMS = "base simd space model laws joints linalg system kinematics integrators mobility dynamics start bearings run batch check studies live results io report sweeps".split()
-# The folders of a room, in order of dependence; what stands in the room itself is everybody's.
+# The folders of a room, in order of dependence; files in the room itself are open to all of them.
 FOLDERS_OF = {
     "base": "text tables expression".split(),
     "integrators": "radau absolute dense relative general ideal".split(),
@@ -28,7 +28,7 @@ FOLDERS_OF = {
     "sweeps": "storage".split(),
 }
 MAX_IN_FOLDER = 25
-# The leftmost room that may use a public header; others count as model.
+# The leftmost room that may use a public header; headers not listed count as model.
 PUBLIC_HEADERS = {
     "complaint.h": "base",
     "expression.h": "base",
@@ -48,7 +48,7 @@ MAX_FILE, MAX_FUNCTION = 500, 100
 VAGUE = {"manager", "handler", "util", "utils", "helper", "helpers", "misc", "data2", "tmp"}
 NOTE = re.compile(r"\b(" + "TO" + "DO|FIX" + "ME|XX" + r"X)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
-# Where the version stands; of a version that is asked for, the part that breaks nothing may be left out.
+# Where the version is stated; a version that is asked for may omit the parts that do not break compatibility.
 VERSIONED = {
     "CMakeLists.txt": re.compile(r"^project\(Pintle VERSION ([\d.]+)"),
     "CITATION.cff": re.compile(r"^version: ([\d.]+)"),
@@ -88,7 +88,7 @@ def room_may_include(room, target):
 
 
 def folder_may_include(path, target):
-    """Why a file may not include `target` of its own room, or an empty string."""
+    """Why a file may not include `target` from its own room, or an empty string."""
     own, other = path.parts[2:-1], pathlib.PurePath(target).parts[1:-1]
     order = FOLDERS_OF.get(path.parts[1], [])
     known = len(own) == 1 and len(other) == 1 and own[0] in order and other[0] in order
@@ -109,7 +109,7 @@ def include_breach(path, target):
 
 
 def crowds(root):
-    """(path, line, message) of every folder of a room that is not in FOLDERS_OF, or has too many sources side by side."""
+    """(path, line, message) of every folder of a room that is not in FOLDERS_OF or has too many sources directly in it."""
     for room in ROOMS:
         for folder in sorted(path for path in [root / "src" / room, *(root / "src" / room).rglob("*")] if path.is_dir()):
             path = folder.relative_to(root)
@@ -155,7 +155,7 @@ def breaches(root, path):
 
 
 def twin_names(headers):
-    """(path, line, message) of every constant and type that another header has too; `headers` are (path, lines)."""
+    """(path, line, message) of every constant and type that is also in another header; `headers` are (path, lines)."""
     first = {}
     for path, lines in headers:
         space = ""
@@ -171,7 +171,7 @@ def twin_names(headers):
 
 
 def other_versions(root):
-    """(path, line, message) of every version that is not the program's."""
+    """(path, line, message) of every version that differs from the program's."""
     version = None
     for path, pattern in VERSIONED.items():
         stated = [(number, found[1]) for number, line in enumerate((root / path).read_text(encoding="utf-8").splitlines(), 1) if (found := pattern.match(line))]

@@ -37,11 +37,11 @@ UNMEASURED = ROOT / "tools" / "unmeasured_constants.txt"
 PAGE = ROOT / "docs" / "theory" / "constants.md"
 ROOMS = ["laws", "linalg", "system", "kinematics", "integrators", "dynamics", "start", "run", "batch", "studies", "live"]
 FACTORS = [0.5, 2.0]
-# What runs make of a change that cannot matter: whatever is no larger says nothing.
+# The effect on runs of a change that cannot matter: an effect that is no larger has no meaning.
 NOISE = [("integrators/radau/step_control.h:kSafety", "noise", 1 + sign * size) for size in (1e-9, 1e-8) for sign in (1, -1)]
-TRUTH, LEAST = 1e-3, 1e-9  # tolerance of the run that the others are compared with, over theirs; the least that a model may ask for
+TRUTH, LEAST = 1e-3, 1e-9  # tolerance of the reference run, relative to that of the others; the smallest that a model may ask for
 
-# What is run with `pintle run`. Each takes less than half a second.
+# The arguments of the runs of `pintle run`. Each takes less than half a second.
 RUNS = """
 mechanisms/four_bar.toml
 mechanisms/four_bar.toml --tolerance 1e-7
@@ -77,7 +77,7 @@ mechanisms/four_bar.toml --method ode15s --duration 0.05
 mechanisms/four_bar.toml --method generalised_alpha --tolerance 1e-3 --duration 0.1
 mechanisms/four_bar.toml --method hht --tolerance 1e-3 --duration 0.1
 """.strip().splitlines()
-# The constants of a method are measured on its runs: the first line that fits; all others on all runs.
+# The constants of a method are measured only on its runs: the first line that matches; all others on all runs.
 OF_METHODS = [
     ("integrators/ideal/*", r"--equations (?!relative\b(?!_))|--equations relative_"),
     ("start/ideal_rows.cpp", r"--equations (?!relative\b(?!_))|--equations relative_"),
@@ -116,7 +116,7 @@ Constant = collections.namedtuple("Constant", "file line name type value comment
 
 
 def parts_at(text, separator):
-    """What stands between separators outside of brackets."""
+    """The parts between separators that are outside brackets."""
     out, depth, start = [], 0, 0
     for i, letter in enumerate(text):
         depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(letter, 0)
@@ -127,13 +127,13 @@ def parts_at(text, separator):
 
 
 def shared_out(comment, count):
-    """The comment of each of several constants of one line: its parts where there are as many, otherwise all of it."""
+    """The comment of each of several constants of one line: its part if there are as many parts, otherwise the whole comment."""
     parts = [part.strip() for part in comment.split(";")]
     return parts if len(parts) == count else [comment] * count
 
 
 def comment_above(lines, number):
-    """The comment that ends on the line before, unless it is the file's first."""
+    """The comment that ends on the previous line, unless it is the file's first."""
     first = number
     while first > 0 and re.match(r"\s*///?(?!/)", lines[first - 1]):
         first -= 1
@@ -159,7 +159,7 @@ def constants_of_text(file, text):
 
 
 def constants_of(tree):
-    """Everything of this kind in the rooms, in their order."""
+    """All constants in the rooms, in their order."""
     paths = [path for room in ROOMS for path in sources_of(tree, room)]
     return [c for path in paths for c in constants_of_text(str(path.relative_to(tree / "src")), path.read_text())]
 
@@ -233,7 +233,7 @@ Row = collections.namedtuple("Row", "program constant value factor run exit step
 
 
 def forces_of(folder):
-    """The times of a run's rows, and for every joint the forces in them."""
+    """The times of a run's rows, and each joint's forces in them."""
     with open(folder / "series.csv", newline="") as file:
         rows = csv.reader(file)
         columns = {name: i for i, name in enumerate(next(rows))}
@@ -244,7 +244,7 @@ def forces_of(folder):
 
 
 def true_error(run, truth, until):
-    """The largest difference of a joint's force in rows that both have, over the joint's peak; a joint is measured at least by 1e-4 of the largest."""
+    """The largest difference of a joint's force in rows that both have, relative to the joint's peak, or to 1e-4 of the largest peak if that is more."""
     row_of = {t: i for i, t in enumerate(truth[0])}
     common = [(i, row_of[t]) for i, t in enumerate(run[0]) if t <= until and t in row_of]
     peak = {name: max((math.hypot(*truth[1][name][k]) for _, k in common), default=0) for name in run[1]}
@@ -260,7 +260,7 @@ def folder_of(kind, text):
 
 
 def run_once(arguments, folder, seconds, scale=""):
-    """The exit code (-1: the time was up), and what it took."""
+    """The exit code (-1: the time was up), and the seconds that it took."""
     start = time.time()
     try:
         code = subprocess.run([PROGRAM, "run", *arguments, "--out", folder, "--force", "--quiet", "--progress", "none"], cwd=TREE, env={**os.environ, "PINTLE_SCALE": scale},
@@ -276,7 +276,7 @@ def with_tolerance(arguments, tolerance):
 
 
 class MeasuredRun:
-    """One of RUNS as it is, and what it should have been."""
+    """One of RUNS with the constants as they are, and its reference."""
 
     def __init__(self, text, program):
         self.text, self.program, self.arguments = text, program, shlex.split(text)
@@ -307,13 +307,13 @@ class MeasuredRun:
 
 
 def notes_of(folder):
-    """What the run says in words. Numbers in them have few digits."""
+    """The messages and notes of the run. Numbers in them have few digits."""
     summary = json.loads((folder / "summary.json").read_text())
     return [summary["message"], *summary["notes"]]
 
 
 def horizon_of(folder):
-    """Up to when the run promises its forces."""
+    """The time up to which the run promises its forces."""
     summary = json.loads((folder / "summary.json").read_text())
     return min((j["horizon"] for j in summary["joints"]), default=math.inf) if summary["outcome"] == "horizon" else math.inf
 
@@ -327,13 +327,13 @@ def load_rows():
 
 
 def built():
-    """Key and value of what the copy reads through the factor."""
+    """Key and value of each constant that the copy reads through the factor."""
     found = [m for room in ROOMS for path in sources_of(TREE, room) for m in re.finditer(r'pintle_scaled<[\w:]+>\("([^"]+)", (.*?)\);', path.read_text())]
     return [(m[1], m[2]) for m in found]
 
 
 def measure(seconds, jobs):
-    """Whether all constants are done."""
+    """Returns whether all constants are done."""
     end, program = time.time() + seconds, hashlib.sha256(PROGRAM.read_bytes()).hexdigest()[:8]
     runs = {text: MeasuredRun(text, program) for text in RUNS}
     rows = load_rows()
@@ -364,7 +364,7 @@ def list_all():
 
 
 def check():
-    """What is wrong with the constants and the list of those that are not measured."""
+    """Prints the faults of the constants and of the list of those that are not measured; returns whether there are none."""
     entries, all_of_them = unmeasured(), constants_of(ROOT)
     wrong = [f"src/{c.file}:{c.line}: {c.name} does not say what it decides" for c in all_of_them if not why_not(c, entries) and not c.comment]
     for file, name, _ in entries:

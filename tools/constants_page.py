@@ -3,7 +3,7 @@ import collections
 import math
 import re
 
-# What counts as an effect: of the mean of steps or evaluations over the runs; of the error of one run, over the tolerance.
+# Smallest change that counts as an effect: of the mean of steps or evaluations over the runs; of the error of one run, relative to the tolerance.
 COST, ERROR = 0.01, 0.1
 LARGEST = 15
 
@@ -21,7 +21,7 @@ def by_case(rows):
 
 
 class Effect:
-    """What became of the runs with one factor."""
+    """The effect of one factor on the runs."""
 
     def __init__(self, rows, usual):
         both = [(row, usual[row.program, run]) for run, row in rows.items() if (row.program, run) in usual]
@@ -44,7 +44,7 @@ class Effect:
 
 
 def mean_change(pairs):
-    """Of the ratios' geometric mean, so that each run counts alike."""
+    """The change as the geometric mean of the ratios, so that each run has the same weight."""
     logs = [math.log(now / was) for now, was in pairs if now > 0 and was > 0]
     return math.exp(sum(logs) / len(logs)) - 1 if logs else 0
 
@@ -63,7 +63,7 @@ def cells(effect):
 
 
 def short(run):
-    """The run as words of a table: the model's name and what is not usual about it."""
+    """The run in words for a table: the model's name and its options."""
     words = run.split()
     rest = " ".join(words[1:]).replace("--", "")
     return words[0].rsplit("/", 1)[-1].removesuffix(".toml") + (f" ({rest})" if rest else "")
@@ -89,7 +89,7 @@ def named(constant):
 
 
 def sentence(text):
-    """What the comment says; its first sentence where it has several."""
+    """The text of the comment; its first sentence if it has several."""
     text = re.sub(r"^(theory/\S+ Eq\. \([\d.]+\)\.)\s*(.*)$", r"\2 \1", text.strip())
     first = re.match(r"(.{25,}?[^.]\.)\s+[A-Z]", text)
     return (first[1] if first else text).rstrip(".").replace("|", "\\|")
@@ -158,12 +158,12 @@ def how_to_read(runs, usual, noise):
 
 
 def level(noise):
-    """What is no larger says nothing: of cost, of an error."""
+    """The level of noise, below which an effect has no meaning: of cost, of an error."""
     return max((e.cost() for e in noise), default=0), max((e.error_change for e in noise), default=0)
 
 
 def size(effects):
-    """By how much the runs' cost changes at most."""
+    """The largest change of the runs' cost, as a logarithm."""
     return max((max(abs(math.log1p(e.steps)), abs(math.log1p(e.evaluations))) for e in effects if e), default=0)
 
 
@@ -198,7 +198,7 @@ def without_effect(effects, noise):
 
 
 def listed(constants):
-    """By file, in a line each."""
+    """The constants by file, one line each."""
     files = collections.defaultdict(list)
     for c in constants:
         files[c.file].append(c.name)

@@ -34,10 +34,10 @@ WORK = ROOT / "build" / "mutants"
 TREE, BUILD, RESULTS, DROPPED = WORK / "tree", WORK / "build", WORK / "results.json", WORK / "dropped.json"
 EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
 
-SPARE = 1.5  # sites that are built in for each that is asked for: some do not compile
-TIMED = "Live.SurvivesEveryMechanismBeingPulledAbout"  # in real time: it fails where the machine is busy
-BATCHES = [1, 4, 16, 64, 256]  # s: tests are started in one go that take so long together
-LONGER = 4  # a change may make a test take so many times its time before it counts as noticed
+SPARE = 1.5  # sites built in for each one asked for: some do not compile
+TIMED = "Live.SurvivesEveryMechanismBeingPulledAbout"  # in real time: it fails if the machine is busy
+BATCHES = [1, 4, 16, 64, 256]  # total duration [s] of the tests that are started together
+LONGER = 4  # a change counts as noticed if it makes a test take more than this many times its usual time
 UNREACHED, NOBODY, OWN, ALL = "no test comes by", "nobody", "the room's tests", "all tests"
 
 
@@ -50,7 +50,7 @@ def rooms_of(tree):
 
 
 def run(command, seconds, **more):
-    """The exit code, and None where the time was up: then the command is ended with all that it has started."""
+    """The exit code, or None if the time was up: then the command and everything that it has started are ended."""
     more = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, **more}
     process = subprocess.Popen(command, start_new_session=True, **more)
     try:
@@ -62,7 +62,7 @@ def run(command, seconds, **more):
 
 
 def copy_tree(tree, changed=lambda name, content: content):
-    """What the working tree has, so that files that have not changed keep their times; `changed` may put something else in a file's place."""
+    """Copies the working tree; unchanged files keep their times. `changed` may replace a file's content."""
     listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
     for name in listed:
         source, target = ROOT / name, tree / name
@@ -90,7 +90,7 @@ def load(path, otherwise):
 
 
 def build_in(sites):
-    """The working tree with all these changes in it, their numbers those in the list, from 1; None is left out."""
+    """Copies the working tree with all these changes built in, numbered as in the list, from 1; None is left out."""
     by_file = collections.defaultdict(list)
     for number, site in enumerate(sites, 1):
         if site is None:
@@ -112,7 +112,7 @@ def build_in(sites):
 
 
 def build(sites, jobs):
-    """Builds what compiles of the sites, in turns: those that the compiler's messages name are left out, None in the list, so that the others keep their numbers."""
+    """Builds the sites that compile, in rounds: those named in the compiler's messages are left out, as None in the list, so that the others keep their numbers."""
     sites = list(sites)
     dropped = {tuple(key) for key in load(DROPPED, [])}
     while True:
@@ -133,14 +133,14 @@ def build(sites, jobs):
 
 
 class Tests:
-    """The tests, with the changes that each of them comes by and the time that it takes."""
+    """The tests, with the changes that each of them reaches and the time that it takes."""
 
     def __init__(self, jobs):
         self.jobs, self.program = jobs, str(BUILD / "pintle_tests")
         self.reached, self.seconds = {}, {}
 
     def run(self, names, mutant, seconds, reached=None):
-        """Whether they pass."""
+        """Returns whether the tests pass."""
         with tempfile.TemporaryDirectory(prefix="pintle-mutants-") as folder:
             flags = Path(folder) / "flags"
             flags.write_text("--gtest_fail_fast\n--gtest_filter=" + ":".join(names) + "\n")
@@ -176,7 +176,7 @@ class Tests:
         say(f"{len(self.seconds)} tests pass, in {sum(self.seconds.values()):.0f} s" + (f"; left out, as they fail without a change: {', '.join(broken)}" if broken else ""))
 
     def noticed(self, names, mutant, stopped):
-        """Whether one of the tests fails; the quickest are run first, many at a time."""
+        """Returns whether one of the tests fails; the quickest are run first, many at a time."""
         left = sorted(names, key=self.seconds.get)
         for most in BATCHES:
             batch = []
@@ -187,7 +187,7 @@ class Tests:
         return False if not left else self.noticed(left, mutant, stopped)
 
     def verdict(self, mutant, own_suites, most_seconds, stopped):
-        """(who notices it, tests that come by, tests that were run)"""
+        """(who notices it, number of tests that reach it, number of tests run)"""
         come_by = sorted((name for name in self.reached if mutant in self.reached[name]), key=self.seconds.get)
         own = [name for name in come_by if name.split(".")[0].split("/")[-1] in own_suites or name.split("/")[0] in own_suites]
         others, taken = [], 0
@@ -203,12 +203,12 @@ class Tests:
 
 
 def suites_of(room):
-    """The suites of tests that stand in the room."""
+    """The suites of the tests in the room."""
     return {suite for path in (TREE / "src" / room).rglob("*_test.cpp") for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)}
 
 
 def test_rooms(options):
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it for what it starts in the background, and tests send it
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell makes its background commands ignore it, and tests send it
     WORK.mkdir(parents=True, exist_ok=True)
     rooms = options.rooms or rooms_of(ROOT)
     results = {(r["file"], r["line"], r["changed"]): r for r in load(RESULTS, [])}

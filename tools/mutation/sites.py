@@ -15,10 +15,10 @@ PATTERNS = [
     ("condition", r"\b(if) \((?!constexpr)"),
     ("constant", f"({NUMBER})"),
 ]
-# Declarations, where a number is a size or a comparison a template's bracket; loops, which then hang or read beyond an end, as everybody notices.
+# No sites: declarations, where a number is a size or a comparison a template's bracket; loops, which would hang or read beyond an end, which every test notices.
 NO_SITE = re.compile(r"^\s*(for \(|//|/\*|\*|#|template|using|namespace|case |static_assert|struct|class|enum|friend|\"|EXPECT|ASSERT)|operator|\[\]|std::array<|Matrix<|Lanes<|\.reserve\(|\.resize\(|if constexpr|\\$")
-ALWAYS_SET = re.compile(r"^\s*[\w:<>]+ (\w+ = 0|\w+_ = [\d.]+)[,;]")  # what is set before it is read
-OF_WORDS = re.compile(r'"|\bstring|text|format|\bname|message|path')  # where + joins strings, which have no sign
+ALWAYS_SET = re.compile(r"^\s*[\w:<>]+ (\w+ = 0|\w+_ = [\d.]+)[,;]")  # variables that are set before they are read
+OF_WORDS = re.compile(r'"|\bstring|text|format|\bname|message|path')  # here + joins strings, which have no sign
 M = "::pintle_mutants::"
 
 
@@ -29,7 +29,7 @@ class Site:
     number: int  # of the line
     kind: str
     line: str
-    changed: str  # the line as a reader would write the change
+    changed: str  # the line as a reader would write it with the change
     built_in: str  # the line with the switch, {0} for the number of the change
 
     @property
@@ -45,7 +45,7 @@ def without_words(line):
 
 
 def closing(text, start):
-    """Where the bracket closes that opens at `start`, -1 where it does not."""
+    """Where the bracket that opens at `start` closes; -1 if it does not."""
     depth = 0
     for i in range(start, len(text)):
         depth += {"(": 1, ")": -1}.get(text[i], 0)
@@ -55,7 +55,7 @@ def closing(text, start):
 
 
 def operand_end(bare, start, stops):
-    """Where the operand ends that begins at `start`; -1 where that is not on this line."""
+    """Where the operand that begins at `start` ends; -1 if that is not on this line."""
     depth = 0
     for i in range(start, len(bare)):
         if bare[i] in "([{":
@@ -68,7 +68,7 @@ def operand_end(bare, start, stops):
 
 
 def operand_begin(bare, end, stops):
-    """Where the operand begins that ends at `end`; -1 where that is not on this line."""
+    """Where the operand that ends at `end` begins; -1 if that is not on this line."""
     depth = 0
     for i in range(end - 1, -1, -1):
         if bare[i] in ")]}":
@@ -88,7 +88,7 @@ def escaped(text):
 
 
 def built_in(line, bare, kind, m):
-    """(line as changed, line with the switch), None where it cannot be changed here."""
+    """(line as changed, line with the switch); None if it cannot be changed here."""
     op, begin, end = m.group(1), m.start(1), m.end(1)
     head, tail = line[:begin], line[end:]
     changed = head + OPPOSITE.get(op, "") + tail
@@ -114,7 +114,7 @@ def built_in(line, bare, kind, m):
             return None
         condition = line[end + 2 : stop]
         return head + f"if (!({condition}))" + line[stop + 1 :], escaped(head) + f"if ({M}is_active({{0}}) != static_cast<bool>({escaped(condition)}))" + escaped(line[stop + 1 :])
-    # ties as the operator itself does: && before ||
+    # binds as the operator itself does: && before ||
     looser = [" || ", " ? ", " : ", " = ", ", ", ";", "return ", " {"] + ([" && "] if op == "&&" else [])
     first, last = operand_begin(bare, m.start(), looser), operand_end(bare, m.end(), looser)
     if first < 0 or last < 0:
@@ -124,7 +124,7 @@ def built_in(line, bare, kind, m):
 
 
 def not_constant(text):
-    """What was known to the compiler becomes known when the program starts."""
+    """Constants known to the compiler become constants that are set when the program starts."""
     text = re.sub(r"\bstatic constexpr ", "static inline const ", text)
     return re.sub(r"\bconstexpr ", "const ", text)
 
@@ -151,7 +151,7 @@ def sites_of(tree, room):
 
 
 def draw(tree, room, seed, wanted, known):
-    """So many sites of a room, no two of them on one line: first those whose keys are known, then others, in an order that changes elsewhere do not change."""
+    """`wanted` sites of a room, no two of them on one line: first those whose keys are known, then others, in an order that does not depend on changes elsewhere."""
     order = {site: hashlib.sha256("\n".join((seed, *site.key)).encode()).hexdigest() for site in sites_of(tree, room)}
     drawn, lines = [], set()
     for site in sorted(order, key=lambda site: (site.key not in known, order[site])):

@@ -1,5 +1,5 @@
-// Built into a copy of the sources by tools/mutants.py: each of its changes has a number, and the program behaves as changed where PINTLE_MUTANT names that
-// number. The numbers of the changes that a program has come by are appended to the file PINTLE_MUTANTS_REACHED, one in a line, when it ends.
+// Built into a copy of the sources by tools/mutants.py: each of its changes has a number, and PINTLE_MUTANT selects the change with which the program runs.
+// When the program ends, the numbers of the changes that it has reached are appended to the file PINTLE_MUTANTS_REACHED, one per line.
 #pragma once
 
 #include <cstdio>
@@ -11,7 +11,7 @@ inline constexpr int kMost = 1 << 15;
 
 struct Switch {
   int active = std::getenv("PINTLE_MUTANT") ? std::atoi(std::getenv("PINTLE_MUTANT")) : 0;
-  bool reached[kMost];  // before the constructor is called, too: functions may be called while other files are initialized
+  bool reached[kMost];  // used also before the constructor is called: functions may run while other files are initialized
 
   Switch() {}
   ~Switch() {

@@ -103,15 +103,9 @@ bool IdealStepper::step(double t_end) {
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = step_ratio(e);
-<<<<<<< HEAD
     if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e))
       if (const int crossed = crossed_jump(); crossed >= 0) jump_ = crossed, jump_ahead = true;
-    // Over the jump; or up to where nothing but rounding is left of the way to it.
-=======
-    const bool jumps = e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e) && crosses_jump();
-    jump_ahead = jump_ahead || jumps;
     // Across the jump, or up to where only roundoff is left of the distance to it.
->>>>>>> 715a9022d52a6b48a582e9985340d68237de652b
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that a step over the singular position may be
     const bool good = e <= 1 || crossing || shortest;
@@ -148,15 +142,9 @@ double IdealStepper::share_of_step(double h, double t_end) {
   return bends_.share_of_step(begin_.t, h, t_end, begin_m_, stage_m_);
 }
 
-<<<<<<< HEAD
-// The switching function that the step crosses, or starts at; -1: none. The embedded error of a jump does not fall with the step; what it does to velocities does. A step may begin at one, as that of t = 0 does where a motor starts.
+// The switching function that the step crosses, or at whose zero it starts; -1: none. The embedded error of a jump does not fall with the step; its effect on velocities does.
+// A step may start at a jump, as that of t = 0 does where a motor starts.
 int IdealStepper::crossed_jump() const {
-  if (!system_.has_branches()) return -1;
-=======
-// The embedded error of a jump does not decrease with the step; its effect on velocities does. A step may begin at a jump, as that at t = 0 does where a motor starts.
-bool IdealStepper::crosses_jump() const {
-  if (!system_.has_branches()) return false;
->>>>>>> 715a9022d52a6b48a582e9985340d68237de652b
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
