@@ -145,6 +145,7 @@ double IdealStepper::share_of_step(double h, double t_end) {
 // The switching function that the step crosses, or at whose zero it starts; -1: none. The embedded error of a jump does not fall with the step; its effect on velocities does.
 // A step may start at a jump, as that of t = 0 does where a motor starts.
 int IdealStepper::crossed_jump() const {
+  if (!system_.has_branches()) return -1;
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
