@@ -76,7 +76,7 @@ struct Source {
 struct Document {
   std::vector<Source> sources;
   Node root;  // a table
-  std::vector<std::string> notes;  // which command-line overrides were kept and which left out
+  std::vector<std::string> notes;  // what changes on the command line have kept and left out
 
   Place place(Spot spot) const;
   /// The spot in the source of byte `offset` of a string's value, allowing for escapes and multi-line strings.

@@ -33,7 +33,7 @@ class WorkerPool {
 
   /// The chunks finished since the last call; waits for one at most this long [s]. Rethrows an exception of a thread after all finished chunks have been taken.
   std::vector<FinishedChunk> take(double seconds);
-  /// No thread is computing any more, and all chunks and exceptions have been taken.
+  /// No thread is computing any more, everything has been taken, and no thread has thrown.
   bool idle();
   /// Batches under way are abandoned.
   void stop() { stopped_ = true; }

@@ -43,7 +43,7 @@ std::string laws_with(std::string_view key) {
   return list;
 }
 
-// The place of a key that is stated in the wrong table; "" if it has none or more than a few.
+// The right place of a key that is stated in the wrong table; "" if it has none or more than a few.
 std::string home_of(std::string_view key) {
   constexpr std::size_t kFew = 3;
   const std::vector<std::string> paths = Schema::model().tables_with(key);

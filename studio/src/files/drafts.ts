@@ -10,7 +10,7 @@ export interface Draft {
   home: Extract<Home, { kind: "folder" }> | null;
   /** Previous texts, newest last; as many as there is room for. */
   before: string[];
-  /** Previous texts that came from elsewhere: how many texts precede the step that opened another. */
+  /** Previous texts that came from elsewhere; `behind`: place in `before`, counted from the newest, of the text that a step replaced by another. */
   opened: { behind: number; fileName: string; home: Draft["home"] }[];
   /** Time of writing [ms]. */
   time: number;

@@ -70,7 +70,7 @@ async function withMissingKeys(text: string, owner: Owner, law: Law): Promise<st
   }
 }
 
-/** If a law lacks something but no single key, such as the positions of its stops, the hint names the possible keys. A key of all joints is reported by any of them. A key with a default is not missing,
+/** If a law lacks something but no single key, such as the positions of its stops, the hint names the possible keys. A key shared by all joints is missing if any joint lacks it. A key with a default is not missing,
  * even if its default is inconsistent with another value. */
 function misses(complaint: Complaint, owner: Owner, role: Role, key: CatalogKey): boolean {
   if (key.default) return false;
