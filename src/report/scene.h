@@ -56,7 +56,7 @@ struct Connector {
   Anchor from, to;
   int teeth = 0;      ///< of a spring's zigzag
   double length = 0;  ///< of a blade; of a cylinder's barrel and of its rod, from the piston to the rod's end [m]
-  std::array<double, 2> radii{0, 0};  ///< of the discs of a belt, positive if the disc is on its left [m]
+  std::array<double, 2> radii{0, 0};  ///< of the discs of a belt, positive if the belt is on the left of its disc [m]
   static constexpr double kHalfBarrel = 1.1;  ///< half the width of a cylinder's barrel, in units
 };
 

@@ -40,7 +40,7 @@ StillFrame frame_for(const Scene& scene, const StillOptions& options);
 
 std::string still_svg(const Scene& scene, const Instant& instant, const StillOptions& options, const std::vector<Trace>& traces = {});
 
-/// Both ends of a belt between discs about `a` and `b`; a radius is positive if its disc is on the belt's left.
+/// Both ends of a belt between discs about `a` and `b`; a radius is positive if the belt is on the left of its disc.
 std::array<Vec2, 2> belt_run(const Vec2& a, const Vec2& b, const std::array<double, 2>& radii);
 
 /// The zigzag of a spring of length 1 along x, from 0 to 1; y is in units.

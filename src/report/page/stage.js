@@ -206,7 +206,7 @@ class Stage {
     g.stroke();
   }
 
-  /** From disc to disc if it is a belt; a radius is positive if its disc is on the belt's left. */
+  /** From disc to disc if it is a belt; a radius is positive if the belt is on the left of its disc. */
   runOf(a, b, radii) {
     if (!radii) return [a, b];
     const [r, s] = radii, dx = b[0] - a[0], dy = b[1] - a[1], w = s - r, far = Math.max(Math.hypot(dx, dy), Math.abs(w)), t = Math.sqrt((far - w) * (far + w));

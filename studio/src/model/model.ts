@@ -43,7 +43,7 @@ export interface Joint {
   /** Numbers of the joint itself: radii, radius, length. */
   radii: [number, number] | null;
   radius: number | null;
-  /** Radii of a belt's discs, positive if the disc is on its left; 0 if the belt ends at the marker. */
+  /** Radii of a belt's discs, positive if the belt is on the left of the disc; 0 if it ends at the marker. */
   discs: [number, number];
   internal: boolean;
   /** Length of a cylinder's barrel; null for other types. */
@@ -259,7 +259,7 @@ function barrelLength(closedLength: number, stroke: number): number {
   return Math.min(Math.max((closedLength + stroke) / 2, 0.93 * closedLength), closedLength);
 }
 
-// Radii for a belt: positive if the disc is on its left.
+// Radii for a belt: positive if the belt is on the left of the disc.
 function readDiscs(table: TableNode, number: Reading): [number, number] {
   const [first, second] = ["first", "second"].map((end) => ({ radius: number(table.entries.get(`${end}_radius`)) ?? 0, side: textOf(table.entries.get(`${end}_side`)) }));
   const signed = (radius: number, side: string | null | undefined) => (side === "right" ? -radius : radius);
