@@ -24,7 +24,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points, double flat);
 
 Vec2 nearest_on(const Vec2& from, const Vec2& to, const Vec2& p);
 
-/// A rectangle around `centre`, with half its side lengths `half` along and across `along` (of length 1).
+/// A rectangle around `centre`; `half` has half its side lengths along and across `along` (of length 1).
 std::vector<Vec2> rectangle(const Vec2& centre, const Vec2& along, const Vec2& half);
 
 /// Points on the cubic curve from `a` to `b` with these tangents at its ends (Hermite).

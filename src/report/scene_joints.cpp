@@ -42,7 +42,7 @@ void SceneMaker::sketch_joints() {
   }
 }
 
-// Belts on the same disc share it.
+// The runs of a belt share their discs, so each disc is added only once.
 void SceneMaker::sketch_discs(const Joint& joint, const Anchor& first, const Anchor& second) {
   const auto add = [&](const Anchor& at, const char* key) {
     const auto radius = joint.geometry.find(key);

@@ -1,4 +1,4 @@
-// Initializes the page: controls, plots, tables.
+// Sets up the page: controls, plots, tables.
 
 const byId = (id) => document.getElementById(id);
 const clock = new Clock(times);
