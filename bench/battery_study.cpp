@@ -1,4 +1,4 @@
-// pintle-bench battery: random mechanisms, and what their runs promise and keep.
+// pintle-bench battery: random mechanisms, and whether their runs keep their promises.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -118,7 +118,7 @@ class Battery {
     return table;
   }
 
-  // Line by line, so that it can be read while the battery runs.
+  // Line by line, so that the list can be read while the battery runs.
   void add_to_list(const MeasuredRun& r) {
     if (!list_.is_open()) return;
     list_ << fmt::format("{},{:.0e},{},{},{},{:.3e},{:.3e},{:.3e},{},{},{},{},{:.3f},\"{}\"\n", r.name, r.tolerance, exit_word(r), fault_of(r).what, r.worst.joint, r.worst.error, r.doubt, r.worst.estimate, r.joints,

@@ -10,7 +10,7 @@ namespace pintle::bench {
 
 struct PeerOptions {
   int repetitions = 9;
-  bool all_methods = true;  // otherwise the best few
+  bool all_methods = true;  // otherwise only the best few
 };
 nlohmann::ordered_json compare_peers(const PeerOptions& options);
 
@@ -24,10 +24,10 @@ struct CurveOptions {
 };
 nlohmann::ordered_json measure_curves(const CurveOptions& options);
 
-/// Computes bench/truths anew.
+/// Recomputes bench/truths.
 void store_truths(const std::vector<std::string>& problems, double tolerance);
 
-/// Beside the last release recorded; `record_as` a version adds to the record.
+/// Compared with the last release recorded; if `record_as` names a version, it is added to the record.
 nlohmann::ordered_json count_instructions(const std::string& record_as);
 
 struct StiffnessOptions {
@@ -42,7 +42,7 @@ struct ForceOptions {
   std::vector<std::string> models;  // empty: the whole collection
   std::vector<double> tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   double cap = 60;           // seconds for each run
-  double negligible = 1e-4;  // of the largest force: a joint with less is measured by this
+  double negligible = 1e-4;  // fraction of the largest force: a joint with less is measured by this
   bool every_joint = false;
 };
 nlohmann::ordered_json study_forces(const ForceOptions& options);
@@ -67,7 +67,7 @@ struct SpaceOptions {
   double tolerance = 1e-5;
   int rounds = 15;
 };
-/// Mechanisms in space, and the four-bar in the plane and in space, run in turns.
+/// Mechanisms in space, and the four-bar in the plane and in space, run alternately.
 nlohmann::ordered_json study_space(const SpaceOptions& options);
 
 struct RealJointOptions {
@@ -75,26 +75,26 @@ struct RealJointOptions {
   int rounds = 5;
   double cap = 20;  // seconds for a run of the peer
 };
-/// Clearance and friction beside the same mechanisms without them, and beside a general stiff solver.
+/// Clearance and friction compared with the same mechanisms without them, and with a general stiff solver.
 nlohmann::ordered_json study_real_joints(const RealJointOptions& options);
 
-/// Ways to keep constraints on the four-bar: joint forces by penalties and by the augmented Lagrangian beside Pintle's own.
+/// Ways to enforce constraints on the four-bar: joint forces by penalties and by the augmented Lagrangian, compared with Pintle's own.
 nlohmann::ordered_json study_constraints();
 
-/// Spectral radius of a step across taut joints, drawn to `file`.
+/// Spectral radius of a step for motions across taut joints, plotted to `file`.
 nlohmann::ordered_json study_stability(const std::string& file);
 
 struct BatteryOptions {
-  int count = 240, first = 0;      // models, and the number of the first
+  int count = 240, first = 0;      // number of models, and the number of the first
   std::uint64_t seed = 1;
   std::vector<std::string> kinds;  // empty: all
-  double time = 0;                 // begins no model after so many seconds; 0: no limit
-  double truth = 1e-7;             // tolerance of the runs that the others are compared with
-  double cap = 20;                 // processor time of a run [s]; of its truth three times that
+  double time = 0;                 // no model is started after this many seconds; 0: no limit
+  double truth = 1e-7;             // tolerance of the runs that serve as reference
+  double cap = 20;                 // processor time of a run [s]; three times that for its truth
   std::string folder;              // for the tables and the models that broke a promise; empty: none are written
   bool verbose = false;            // names each model on standard error
 };
-/// Random mechanisms: true against stated errors, joint by joint.
+/// Random mechanisms: true error compared with stated error, joint by joint.
 nlohmann::ordered_json run_battery(const BatteryOptions& options);
 
 /// Google Benchmark; `filter` is a regular expression. An empty `json_file` writes none.

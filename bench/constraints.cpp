@@ -1,4 +1,4 @@
-// Joint forces of the four-bar by penalties and by the augmented Lagrangian, beside Pintle's own: the table of theory/penalty section 4.
+// Joint forces of the four-bar by penalties and by the augmented Lagrangian, compared with Pintle's own: the table of theory/penalty section 4.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -20,10 +20,10 @@ namespace {
 constexpr int kOutputs = 100;
 constexpr int kRepetitions = 5;
 constexpr double kTruth = 1e-9, kCompliantTruth = 1e-9;
-constexpr double kFactor = 1e3;     // of the penalties in the iteration: small, so that the multipliers converge as far as the steps let them
+constexpr double kFactor = 1e3;     // of the penalties in the iteration: small, so that the multipliers converge only as far as the steps let them
 constexpr double kNoControl = 1e6;  // a tolerance at which no step is shortened
 
-// Steps of one length that end at the outputs; the forces are those of the state, and the multipliers that the iteration ended with.
+// Steps of equal length that end at the outputs; with the forces of the state, and the multipliers at the end of the iteration.
 struct FixedSteps {
   Samples forces, multipliers;
   double seconds = 0, steps = 0;
@@ -99,7 +99,7 @@ class Study {
   void add_penalty(double factor, double frequency, const Samples& truth) {
     MethodChoice choice{Equations::kPenalty, "dopri5"};
     choice.penalty = {factor, frequency, 1};
-    constexpr double kFine = 1e-8;  // the penalties' error is all that is left
+    constexpr double kFine = 1e-8;  // only the error of the penalties remains
     add_run("penalty, dopri5", fmt::format("{:.0e}, {:g} rad/s", factor, frequency), kFine, ideal_problem_, choice, truth);
   }
 

@@ -21,18 +21,18 @@ namespace pintle::bench {
 namespace {
 
 constexpr int kOutputs = 100;
-constexpr double kTightest = 1e-9;    // of the compliant truth
+constexpr double kTightest = 1e-9;    // for the compliant truth
 constexpr double kIdealTruth = 1e-12;
-constexpr int kStoredLoops = 40;      // N-four-bars with as many or more have a stored truth
-constexpr int kDenseBodies = 25;      // more: dense matrices are hopeless
-constexpr int kTreeBodies = 150;      // more: Simbody's constraints, which it solves densely, are
+constexpr int kStoredLoops = 40;      // N-four-bars with this many or more have a stored truth
+constexpr int kDenseBodies = 25;      // with more, dense matrices are hopeless
+constexpr int kTreeBodies = 150;      // with more, Simbody's constraints are hopeless, since it solves them densely
 
 std::unique_ptr<ReadyModel> ready(Model model, Equations equations) {
   model.simulate.equations = equations;
   return std::make_unique<ReadyModel>(std::move(model));
 }
 
-// Finer and finer, as long as there is time: the last run that ended, and how far it is from the one before it.
+// Tightens the tolerance while there is time; returns the last run that ended, and its difference from the previous one.
 Truth settle_truth(const Problem& problem, const MethodChoice& choice, double from, double to) {
   Truth truth;
   double spent = 0;
@@ -131,7 +131,7 @@ std::vector<Contestant> CurveCase::contestants() const {
   return list;
 }
 
-// A further method, or another measure of its error, is one more entry here.
+// To add a method or another measure of its error, add an entry here.
 void CurveCase::add_own(std::vector<Contestant>& list) const {
   const auto own = [&](const char* name, const std::string& group, Equations equations, const char* method, int stages, std::vector<double> ladder,
                        ToleranceOf tolerance_of = ToleranceOf::kForces) {

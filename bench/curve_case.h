@@ -1,4 +1,4 @@
-// One mechanism of the curves, made ready: both sets of equations, their truths, and the methods that compete.
+// One mechanism of the curves, ready to run: both sets of equations, their truths, and the competing methods.
 #pragma once
 
 #include <memory>
@@ -17,14 +17,14 @@ struct CaseOptions {
   double cap = 10;  // seconds for any run
 };
 
-/// A truth and what is known of its own error.
+/// A truth and the uncertainty of its own error.
 struct Truth {
-  std::unique_ptr<Samples> samples;  // none: it could not be had
+  std::unique_ptr<Samples> samples;  // none: it could not be computed
   std::string method;
-  double force_doubt = 0, place_doubt = 0;  // difference from the run before it, a tenth of the tolerance [-, m]
+  double force_doubt = 0, place_doubt = 0;  // difference from the previous run, with ten times the tolerance [-, m]
 };
 
-/// Computes the truth of a problem at a tolerance, and at ten times that, and stores it where CurveCase finds it.
+/// Computes the truth of a problem at a tolerance and at ten times that, and stores it where CurveCase finds it.
 void store_truth(const CurveProblem& about, double tolerance);
 
 class CurveCase {
@@ -34,7 +34,7 @@ class CurveCase {
   const CurveProblem& about() const { return about_; }
   const Truth& truth(const std::string& equations) const { return equations == kIdeal ? ideal_truth_ : compliant_truth_; }
   std::vector<Contestant> contestants() const;
-  /// Both truths and how far each is from the run before it, in Markdown.
+  /// Both truths and the difference of each from the previous run, in Markdown.
   std::string truths() const;
   int n_bodies() const { return compliant_->system.n_bodies(); }
 

@@ -14,12 +14,12 @@ struct CurveProblem {
   std::string name;      // in files and options
   std::string title;
   std::function<Model()> model;
-  MarkerRef point;       // whose place is measured
-  std::string remark{};  // what differs from the model of the collection
+  MarkerRef point;       // point whose position is measured
+  std::string remark{};  // difference from the model of the collection
   int loops = 0;         // of the N-four-bar; 0: another mechanism
-  bool ideal = true;     // ideal joints have an answer
-  bool all_peers = false;  // every method of SUNDIALS that has a chance, not only the best few
-  bool small = true;     // whole runs and dense peers are worth while
+  bool ideal = true;     // ideal joints have a unique solution
+  bool all_peers = false;  // every promising method of SUNDIALS, not only the best few
+  bool small = true;     // whole runs and dense peers are worthwhile
 };
 
 /// In the order of the tables.

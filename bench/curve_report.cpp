@@ -12,7 +12,7 @@
 namespace pintle::bench {
 namespace {
 
-constexpr double kUseless = 1;  // errors above it are left out of pictures: of the peak force, or a metre
+constexpr double kUseless = 1;  // larger errors are left out of pictures: relative to the peak force, or in metres
 
 bool takes_part(const WorkPrecision& work, const std::string& group, Measure measure) {
   return std::any_of(work.rungs().begin(), work.rungs().end(), [&](const Rung& rung) {
@@ -20,7 +20,7 @@ bool takes_part(const WorkPrecision& work, const std::string& group, Measure mea
   });
 }
 
-// The group's runs that no cheaper one of it beats.
+// The group's runs that are not beaten by a cheaper one.
 Curve front_of(const WorkPrecision& work, const std::string& group, Measure measure) {
   std::vector<std::pair<double, double>> points;  // seconds, error
   for (const Rung& rung : work.rungs())

@@ -15,17 +15,17 @@ namespace pintle::bench {
 /// Milliseconds that each group of methods needs for a given error.
 ResultTable price_table(const WorkPrecision& work, Measure measure, const std::string& title);
 
-/// Force error and place error over time, each group's best as a curve.
+/// Force error and position error against time, with one curve for the best of each group.
 std::string picture(const WorkPrecision& work, const std::string& title, const std::string& subtitle);
 
-/// What one problem has come to.
+/// The results of one problem.
 struct ProblemReport {
   CurveProblem problem;
-  std::string truths;  // which, and how sure
+  std::string truths;  // which, and their uncertainty
   std::vector<ResultTable> tables;
 };
 
-/// The page for docs/benchmarks, pictures beside it as <name>.svg.
+/// The page for docs/benchmarks, with its pictures next to it as <name>.svg.
 std::string curves_page(const std::vector<ProblemReport>& problems, const ResultTable& targets, const nlohmann::ordered_json& machine);
 
 }  // namespace pintle::bench

@@ -1,4 +1,4 @@
-// Work and precision of every method on every mechanism of the curves: tables, pictures, a page.
+// Work-precision curves of every method on every mechanism: tables, pictures, a page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 const std::vector<std::string> kQuick{"pendulum", "four_bar", "a02_1", "a02_40", "andrews"};
 constexpr double kQuickCap = 2;
-constexpr double kSmallShare = 0.3;  // of the cap, for runs of small mechanisms
+constexpr double kSmallShare = 0.3;  // fraction of the cap, for runs of small mechanisms
 constexpr int kQuickRounds = 2;
 constexpr int kTurns = 1000;
 

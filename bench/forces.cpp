@@ -1,4 +1,4 @@
-// Are the joint forces as accurate as asked for, and is the error that a run states the true one?
+// Are the joint forces as accurate as requested, and is the error that a run states the true one?
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 namespace pintle::bench {
 namespace {
 
-constexpr double kReferenceShare = 0.01;  // tolerance of the reference over the run's
-constexpr double kRounding = 1e-12;  // errors below it are rounding of the largest forces: nothing is asked of them
+constexpr double kReferenceShare = 0.01;  // tolerance of the reference relative to the run's
+constexpr double kRounding = 1e-12;  // smaller errors are roundoff of the largest forces and are not judged
 constexpr double kLeastRatio = 1.0 / 3, kLargestRatio = 30;
 
 std::vector<std::string> collection() {
@@ -41,7 +41,7 @@ std::string name_of(const JointError& e) {
   return e.couple ? e.joint + " (couple)" : e.joint;
 }
 
-// Runs of one model, each made once: a tight run is the reference of a coarse one and is measured itself.
+// Runs of one model, each made only once: a tight run is the reference of a coarse one and is itself measured.
 class Runs {
  public:
   Runs(std::string name, double cap) : model_(collection_model(name)), cap_(cap) {}

@@ -10,7 +10,7 @@
 
 namespace pintle::bench {
 
-// Bars a lean to the right, bars b to the left, at the angle to the axis that falls with the rate `turning`.
+// Bars a lean to the right, bars b to the left, at the same angle to the axis, which decreases at the rate `turning`.
 Model scissor_chain(int n) {
   constexpr double kAngle = 75 * std::numbers::pi / 180, kTurning = -1.5;  // [rad, rad/s]
   const double c = std::cos(kAngle), s = std::sin(kAngle);

@@ -1,4 +1,4 @@
-// The groups of methods that the tables and pictures set side by side: each is judged by the best of its methods at every error.
+// The groups of methods compared in the tables and pictures: at every error, each is judged by the best of its methods.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ inline const std::string kPintle = "Pintle", kWholeRun = "Pintle, whole run", kE
                          kSimbodyBushings = "Simbody, bushings", kPintleIdeal = "Pintle, ideal joints", kSimbodyIdeal = "Simbody, ideal joints",
                          kMujoco = "MuJoCo, ideal joints", kPenalty = "Penalty", kAugmented = "Augmented Lagrangian";
 inline const std::array<std::string, 10> kAll{kPintle, kWholeRun, kExplicit, kSundials, kSimbodyBushings, kPintleIdeal, kPenalty, kAugmented, kSimbodyIdeal, kMujoco};
-/// Of the picture's line: a colour for each program, dashed for ideal joints.
+/// Style of the line in the picture: a colour for each program, dashed for ideal joints.
 inline const std::array<int, 10> kStyle{0, 1, 2, 3, 4, 7, 13, 9, 11, 12};
 }  // namespace group
 

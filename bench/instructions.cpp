@@ -1,5 +1,5 @@
-// How many instructions a few fixed commands take, counted by valgrind's callgrind: a measure of work that no other program on
-// the machine disturbs. bench/instructions.json has the counts of every release.
+// The number of instructions of a few fixed commands, counted by valgrind's callgrind: a measure of work that other programs on
+// the machine do not disturb. bench/instructions.json has the counts of every release.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -10,8 +10,8 @@ struct Difference {
   double force = 0, couple = 0, peak = 0, peak_couple = 0;
 };
 
-// Up to the time until which both promise the force.
-// The couple of a pin that rubs is a small part of what its force does, and the run states its error apart.
+// Compares up to the time until which both runs promise the force.
+// The couple of a pin with friction is a small part of the effect of its force, and the run states its error separately.
 Difference compare(const Trajectory& run, const Trajectory& reference, const LoadSummary& joint, bool couples) {
   const auto same = std::find_if(reference.joints.begin(), reference.joints.end(), [&joint](const LoadSummary& j) { return j.name == joint.name; });
   const double until = std::min(joint.horizon, same == reference.joints.end() ? joint.horizon : same->horizon);
@@ -27,7 +27,7 @@ Difference compare(const Trajectory& run, const Trajectory& reference, const Loa
     d.peak_couple = std::max(d.peak_couple, std::abs(reference.at(i, m)));
     d.couple = std::max(d.couple, std::abs(run.at(i, m) - reference.at(i, m)));
   }
-  if (same != reference.joints.end() && until >= reference.at(reference.n_rows() - 1, 0)) {  // peaks may be between the rows, as those of impacts
+  if (same != reference.joints.end() && until >= reference.at(reference.n_rows() - 1, 0)) {  // peaks may lie between the rows, such as those of impacts
     d.peak = std::max(d.peak, same->peak);
     d.peak_couple = std::max(d.peak_couple, m < 0 ? 0 : same->peak_moment);
   }

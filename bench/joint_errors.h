@@ -1,4 +1,4 @@
-// The true error of a run's joint forces, against a much tighter run, beside the error that it states.
+// The true error of a run's joint forces, from a much tighter run, together with the error that the run states.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@ namespace pintle::bench {
 
 struct JointError {
   std::string joint;
-  double error = 0;     // largest over the output times up to its horizon, of the joint's peak force or couple [-]
-  double of_force = 0;  // the part of the force alone [-]
-  bool couple = false;  // whether it is the couple that is worse
+  double error = 0;     // largest at the output times up to its horizon, relative to the joint's peak force or couple [-]
+  double of_force = 0;  // of the force alone [-]
+  bool couple = false;  // whether the couple has the larger error
   double estimate = 0;  // as stated by the run [-]
   double ratio() const { return estimate / error; }
 };
 
-/// One entry per joint. A joint that carries less than the share `negligible` of the largest force of the mechanism is
-/// measured by that share; couples likewise, by the largest couple or force times radius of gyration, theory/time
-/// (6.1). Empty when the two runs do not have the same rows.
+/// One entry per joint. A joint with less than the fraction `negligible` of the largest force of the mechanism is
+/// measured by that fraction; couples likewise, by the largest couple or force times radius of gyration, theory/time
+/// (6.1). Empty if the two runs do not have the same rows.
 std::vector<JointError> joint_errors(const Model& model, const Trajectory& run, const Trajectory& reference,
                                      double negligible);
 

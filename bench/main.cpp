@@ -1,4 +1,4 @@
-// pintle-bench: what the forces are worth, and what they cost, here and elsewhere.
+// pintle-bench: the accuracy and the cost of the forces, in Pintle and in other programs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// The parts that a step is made of, with Google Benchmark.
+// The components of a step, with Google Benchmark.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -52,7 +52,7 @@ void accelerations(benchmark::State& state, const std::string& name) {
   count_bodies(state, ready.system.n_bodies());
 }
 
-// A matrix with the pattern of the system and a dominant diagonal.
+// Fills a matrix that has the system's pattern and a dominant diagonal.
 template <class T>
 void fill(const System& system, BlockLu<T, 3>& lu) {
   lu.set_diagonal([](int, int) { return T(10.0); });
@@ -93,7 +93,7 @@ void solve(benchmark::State& state, const std::string& name) {
   count_bodies(state, ready.system.n_bodies());
 }
 
-// Steps with error control at tolerance 1e-5, over and over from the start to the end.
+// Steps with error control at tolerance 1e-5, repeatedly from start to end.
 void step(benchmark::State& state, const Model& model, int stages) {
   const ReadyModel ready(model);
   const double end = ready.model.simulate.duration;

@@ -16,9 +16,9 @@ namespace {
 
 using Point = Planar::Point;
 
-constexpr int kSmall = 150;  // bodies for which MuJoCo's own guess of the memory suffices
+constexpr int kSmall = 150;  // number of bodies for which MuJoCo's own estimate of the memory suffices
 
-// The world axes are those of every body where it starts, so that hinges start at angle zero and places are plain differences.
+// At the start every body's axes are the world axes, so that hinges start at angle zero and positions are plain differences.
 class Document {
  public:
   Document(const MujocoMethod& method, const Problem& problem, double step)
@@ -98,13 +98,13 @@ std::unique_ptr<mjModel, FreeModel> load(const std::string& text) {
   mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(text.size()));
   std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
   char error[500] = "";
-  mju_user_warning = [](const char*) {};  // by itself it would leave a log in the working directory
+  mju_user_warning = [](const char*) {};  // by default it would write a log into the working directory
   std::unique_ptr<mjModel, FreeModel> model(mj_loadXML("model.xml", files.get(), error, sizeof error));
   if (!model) throw std::runtime_error(fmt::format("MuJoCo refuses the model: {}", error));
   return model;
 }
 
-// Springs and motors as Pintle evaluates them, gravity left to MuJoCo.
+// Springs and motors evaluated as in Pintle; gravity is left to MuJoCo.
 class Loads {
  public:
   Loads(const Problem& problem, const PeerTree& tree, const mjModel* model) : system_(*problem.system), tree_(tree), start_(problem.start->q) {

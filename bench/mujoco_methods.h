@@ -1,4 +1,4 @@
-// MuJoCo on a mechanism: a tree of hinges and slides, its loops closed by "connect" constraints, which are soft by nature.
+// MuJoCo on a mechanism: a tree of hinges and slides, with loops closed by "connect" constraints, which are inherently soft.
 // E. Todorov et al., IROS 2012. Only in builds that found MuJoCo.
 #pragma once
 
@@ -14,7 +14,7 @@ struct MujocoMethod {
   double softness = 2;                  // time constant of the constraints, in steps
 };
 
-/// Fixed steps of about `step` that end at the output times. Places only: MuJoCo's constraint forces are not those of ideal joints.
+/// Fixed steps of about `step` that end at the output times. Positions only: MuJoCo's constraint forces are not those of ideal joints.
 MethodRun run_mujoco(const MujocoMethod& method, const Problem& problem, double step);
 
 std::string mujoco_version();

@@ -1,4 +1,4 @@
-// How programs that count in relative coordinates take a mechanism apart: a spanning tree of its joints and what closes its loops.
+// How programs with relative coordinates decompose a mechanism: a spanning tree of its joints, and the joints that close loops.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,11 @@ struct TreeLink {
 };
 
 struct PeerTree {
-  std::vector<TreeLink> links;  // parents before what they carry
+  std::vector<TreeLink> links;  // parents before their children
   std::vector<int> loops;       // joints that are not in the tree
 };
 
-/// The joints nearest to the ground first. Servos are left out.
+/// The joints nearest to the ground come first. Servos are left out.
 PeerTree peer_tree(const System& system);
 
 }  // namespace pintle::bench

@@ -1,4 +1,4 @@
-// One turn of the four-bar: Pintle beside SUNDIALS, by the error of the joint forces that each method ends up with.
+// One turn of the four-bar: Pintle compared with SUNDIALS, by the resulting error of the joint forces of each method.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ std::vector<Contestant> peer_methods(const Problem& problem, bool all, const Sam
   return list;
 }
 
-// What a user pays for an error, here and there.
+// The price of an error in both programs.
 ResultTable price_list(const WorkPrecision& work) {
   ResultTable table("Time for a given joint-force error", {{"error", "error"},
                                                            {"best of SUNDIALS", "peer", true},
@@ -63,7 +63,7 @@ ResultTable price_list(const WorkPrecision& work) {
   return table;
 }
 
-// What a run at the usual tolerance consists of.
+// The parts of a run at the usual tolerance.
 ResultTable one_turn(const ReadyModel& ready, const Problem& problem, const Samples& reference, int repetitions) {
   ResultTable table(fmt::format("Four-bar, one turn, tolerance {:.0e}, {} output times", kAsked, kOutputs),
                     {{"part", "part", true},
@@ -83,7 +83,7 @@ ResultTable one_turn(const ReadyModel& ready, const Problem& problem, const Samp
     const double single = run_radau(problem, 3, kAsked).seconds;
     const RunPasses passes = run_passes(problem, kAsked);
     const double all = whole_run(ready, problem, kAsked).seconds;
-    if (i == 0) continue;  // for the caches
+    if (i == 0) continue;  // warms up the caches
     start.add(seconds);
     bare.add(steps_only);
     alone.add(single);

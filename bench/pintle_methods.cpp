@@ -14,9 +14,9 @@
 namespace pintle::bench {
 namespace {
 
-constexpr std::uint64_t kLook = 16;  // steps between two looks at the clock
+constexpr std::uint64_t kLook = 16;  // steps between two readings of the clock
 
-// World forces of the joints and the followed point from the columns of a run, the first row (the start) left out.
+// World forces of the joints and the position of the followed point from the columns of a run, without the first row (the start).
 class RunRows {
  public:
   RunRows(const Trajectory& run, const System& system, FollowedPoint point) : run_(run), point_(point) {
@@ -35,7 +35,7 @@ class RunRows {
     std::vector<double> loads;
     for (std::size_t i = 0; i < loads_.size(); i += 2)
       loads.insert(loads.end(), {run_.at(row, loads_[i]), run_.at(row, loads_[i + 1]), 0});
-    loads.resize(loads.size() + 3 * n_other_, 0.0);  // servos, whose forces have other columns
+    loads.resize(loads.size() + 3 * n_other_, 0.0);  // servos, whose forces are in other columns
     samples.add_loads(loads);
     if (pose_.empty()) return;
     const Planar::Vec q(run_.at(row, pose_[0]), run_.at(row, pose_[1]), run_.at(row, pose_[2]));

@@ -1,4 +1,4 @@
-// Pintle's own integrator on the problem that the peers solve, and one turn as a run makes it.
+// Pintle's own integrator on the problem that the peers solve, and one turn as in a complete run.
 #pragma once
 
 #include "bench/problem.h"
@@ -14,22 +14,22 @@ struct PintleRun {
   Counters counters;
   LoadScale scale;
   Samples samples;
-  /// Without what only Pintle knows.
+  /// Without the data that only Pintle provides.
   MethodRun measured() const;
 };
 
-/// The stepper alone, with dense output; `scale` from an earlier integration, if any.
+/// The stepper alone, with dense output; `scale` comes from an earlier integration, if any.
 PintleRun run_stepper(const Problem& problem, const MethodChoice& choice, double tolerance, const LoadScale* scale = nullptr);
-/// The same, of the force-accurate method.
+/// The same, with the force-accurate method.
 PintleRun run_radau(const Problem& problem, int stages, double tolerance, const LoadScale* scale = nullptr);
 
-/// The two integrations that a run makes when its first estimate is good enough: the pilot and the reported one.
+/// The two integrations of a run whose first estimate is good enough: the pilot and the reported one.
 struct RunPasses {
   PintleRun pilot, reported;
 };
 RunPasses run_passes(const Problem& problem, double tolerance);
 
-/// A model made ready: settled, with its start state. Not to be moved (problems point into it).
+/// A model ready to run, with its start state. It must not be moved (problems point into it).
 struct ReadyModel {
   explicit ReadyModel(Model from);
   ReadyModel(const ReadyModel&) = delete;
@@ -44,7 +44,7 @@ struct ReadyModel {
   FollowedPoint point(const MarkerRef& marker) const;
 };
 
-/// Everything that `simulate` does, from the model to the table of results; the problem's cap ends it.
+/// Everything that `simulate` does, from the model to the table of results; it ends at the problem's cap.
 MethodRun whole_run(const ReadyModel& ready, const Problem& problem, double tolerance);
 
 /// mechanisms/<name>.toml with overrides.

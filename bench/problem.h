@@ -1,4 +1,4 @@
-// The problem that every method solves, and what one run of a method gives.
+// The problem that every method solves, and the result of one run of a method.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@ struct Problem {
   std::vector<double> outputs;                     // times [s]
   double force = 1, stiffness = 1, impedance = 1;  // for Weights::kForce [N, N/m, N*s/m]
   FollowedPoint point{};
-  double cap = std::numeric_limits<double>::infinity();  // a run that takes longer is given up [s]
+  double cap = std::numeric_limits<double>::infinity();  // a run that takes longer is abandoned [s]
 };
 
 struct MethodRun {

@@ -1,5 +1,5 @@
-// What real joints cost: a pin with clearance and friction in all pins beside the same mechanism without them, and clearance beside a general stiff
-// solver that looks for the roots of its contacts.
+// The cost of real joints: clearance in one pin and friction in all pins compared with the same mechanism without them, and clearance compared with a
+// general stiff solver that locates the roots of its contacts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ Overrides together(const Overrides& a, const Overrides& b) {
   return all;
 }
 
-// Whole runs, in turns.
+// Whole runs, measured alternately.
 class Timed {
  public:
   explicit Timed(Model model) : model_(std::move(model)) {}
@@ -81,7 +81,7 @@ ResultTable costs(double tolerance, int rounds) {
   return table;
 }
 
-// The least time of a method's runs that are at least so accurate [s].
+// The least time [s] of a method's runs that have at least this accuracy.
 double time_for(const SolverStudy& study, const std::string& method, double error) {
   double least = std::numeric_limits<double>::infinity();
   for (const SolverRun& run : study.runs)

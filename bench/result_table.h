@@ -1,4 +1,4 @@
-// A table of results that is printed for people and written as JSON for programs.
+// A table of results, printed for people and written as JSON for programs.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,14 +8,14 @@
 
 namespace pintle::bench {
 
-/// One cell: what is printed, and the value behind it.
+/// One cell: the printed text, and the value behind it.
 struct Cell {
   std::string text;
   nlohmann::ordered_json value;
 };
 
 Cell text(std::string words);
-/// `format` is fmt's for a double, e.g. "{:.2e}"; not a number prints as "-".
+/// `format` is fmt's for a double, e.g. "{:.2e}"; NaN prints as "-".
 Cell number(double value, const char* format);
 Cell count(double value);
 
@@ -33,7 +33,7 @@ class ResultTable {
   std::size_t n_columns() const { return columns_.size(); }
   const std::string& title() const { return title_; }
   void print() const;
-  /// The rows as a table of Markdown, without the title.
+  /// The rows as a Markdown table, without the title.
   std::string markdown() const;
   /// An array with one object per row.
   nlohmann::ordered_json json() const;

@@ -1,4 +1,4 @@
-// J angle'' = -9.81 S cos(angle): what the N-four-bar of the IFToMM library does on its regular branch, all cranks parallel.
+// J angle'' = -9.81 S cos(angle): the motion of the IFToMM library's N-four-bar on its regular branch, with all cranks parallel.
 #pragma once
 
 #include <cmath>
@@ -9,10 +9,10 @@
 namespace pintle::bench {
 
 struct CrankTop {
-  double t, x, y;  // B0, seen from A0 [s, m, m]
+  double t, x, y;  // B0 relative to A0 [s, m, m]
 };
 
-/// B0 with N loops at `count` + 1 even times from 0 to `end`, by the classical Runge-Kutta method with steps of 1e-4 s or less.
+/// B0 with N loops at `count` + 1 equally spaced times from 0 to `end`, by the classical Runge-Kutta method with steps of 1e-4 s or less.
 inline std::vector<CrankTop> n_four_bar_tops(int n, double end, int count) {
   const double J = (n + 1) / 3.0 + n, S = (n + 1) / 2.0 + n;
   const int steps = static_cast<int>(std::ceil(end / count / 1e-4));

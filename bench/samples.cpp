@@ -9,7 +9,7 @@
 namespace pintle::bench {
 namespace {
 
-constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the largest force
+constexpr double kNegligible = 1e-4;  // a joint is measured by at least this fraction of the largest force
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What a run is measured by: joint forces and the place of one point at given times, and how far two sets of them are apart.
+// What is measured of a run: joint forces and the position of one point at given times, and the difference of two such sets.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace pintle::bench {
 
-/// `count` times after the start, evenly spaced, the last one the end.
+/// `count` times after the start, equally spaced, the last one at the end.
 std::vector<double> output_times(double duration, int count);
 
-/// A point of a body, from its centre of mass in body axes [m]. No body: none is followed.
+/// A point of a body, relative to its centre of mass in body axes [m]. No body: no point is followed.
 struct FollowedPoint {
   int body = kGround;
   Planar::Point at = Planar::Point::Zero();
@@ -22,20 +22,20 @@ class Samples {
 
   /// World force [N] and couple [N*m] of every joint; `force` is the joints' own, conjugate to their gaps.
   void add(const Vecs& q, const Vecs& v, const Vecs& force);
-  /// The same with the forces that the laws give at q, v.
+  /// The same with the forces from the laws at q, v.
   void add_by_laws(double t, const Vecs& q, const Vecs& v);
-  /// The loads as they are: fx, fy, couple of every joint.
+  /// Given loads: fx, fy, couple of every joint.
   void add_loads(const std::vector<double>& loads);
-  /// The point's place in the world [m].
+  /// The point's position in the world [m].
   void add_place(const Planar::Point& p) { places_.push_back(p); }
 
   bool has_forces() const { return rows_ > 0; }
   bool has_places() const { return !places_.empty(); }
   const std::vector<Planar::Point>& places() const { return places_; }
 
-  /// The largest difference of any joint's force, over that joint's peak in `reference`; not a number without forces [-].
+  /// The largest difference of any joint's force, relative to that joint's peak in `reference`; NaN without forces [-].
   double error(const Samples& reference) const;
-  /// The largest distance of the point from where it is in `reference`, and the distance at the end [m].
+  /// The largest distance of the point from its position in `reference`, and the distance at the end [m].
   double place_error(const Samples& reference) const;
   double end_error(const Samples& reference) const;
   double largest_force() const;

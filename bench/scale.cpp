@@ -1,4 +1,4 @@
-// How cost and memory grow with the number of bodies, from the text of a model file to the integrator's steps.
+// How cost and memory grow with the number of bodies, from the text of the model file to the integrator's steps.
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -27,7 +27,7 @@ namespace {
 const std::map<std::string, std::function<Model(int)>> kShapes{
     {"chain", sample::chain_model}, {"tree", sample::tree_model}, {"ladder", sample::ladder_model}, {"grid", sample::grid_model}};
 
-// Peak of the memory that this process holds, over what it held when this object was made. Linux only; 0 elsewhere.
+// Peak memory of this process, above its memory when this object was made. Linux only; 0 elsewhere.
 class PeakMemory {
  public:
   PeakMemory() {
@@ -47,7 +47,7 @@ class PeakMemory {
   double before_ = 0;
 };
 
-// As a model file of one line per body and joint.
+// The model as a file with one line per body and joint.
 std::string text_of(const Model& model) {
   const auto marker = [](const Marker& m) { return fmt::format("{} = [{}, {}]", m.name, m.position[0], m.position[1]); };
   std::string text = fmt::format("format = 1\nname = \"{}\"\ngravity = [{}, {}]\n[simulate]\nduration = {}\noutput_step = {}\ntolerance = {}\n[ground.markers]\n",
@@ -70,7 +70,7 @@ std::string text_of(const Model& model) {
 
 struct Costs {
   int size = 0, bodies = 0, joints = 0, fill = 0;
-  double read = 0, build = 0, assemble = 0, start = 0, step = 0;  // [s]; the start without assembly; one step
+  double read = 0, build = 0, assemble = 0, start = 0, step = 0;  // [s]; start is without assembly; step is one step
   double newton = 0;  // iterations per step
   double bytes = 0;   // at the peak
 };
@@ -97,7 +97,7 @@ Costs measure(const Model& model, int size, int steps) {
   c.start = starting.seconds() - c.assemble - c.build;
   const auto stepper = make_stepper(start.system, {Equations::kNewtonian, "radau", 3}, 1e-3);
   stepper->start(start.state, 1e-4 * read.simulate.duration);
-  stepper->step(read.simulate.duration);  // the first one fills buffers
+  stepper->step(read.simulate.duration);  // the first step fills buffers
   const Stopwatch stepping;
   for (int i = 0; i < steps; ++i)
     if (!stepper->step(read.simulate.duration)) break;
@@ -108,7 +108,7 @@ Costs measure(const Model& model, int size, int steps) {
   return c;
 }
 
-// The exponent p of time = c * bodies^p, by least squares of the logarithms.
+// The exponent p in time = c * bodies^p, by least squares of the logarithms.
 double exponent(const std::vector<Costs>& rows, double Costs::*time) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const Costs& row : rows) {

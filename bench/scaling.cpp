@@ -41,7 +41,7 @@ ResultTable Scaling::table() const {
 
 namespace {
 
-constexpr double kTurn = 0.3;  // of a size in a round [s], unless one run takes longer
+constexpr double kTurn = 0.3;  // time for one size in a round [s], unless a single run takes longer
 
 struct Subject {
   explicit Subject(Model model) : ready(std::move(model)), problem(ready.problem(1)) {}

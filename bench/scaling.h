@@ -14,13 +14,13 @@ struct Scaling {
     double per_body_and_step() const { return seconds / steps / bodies; }
   };
   std::vector<Row> rows;
-  /// Of time over loops: the slope of the line through the logarithms.
+  /// Exponent of time against loops: the slope of the line fitted to the logarithms.
   double exponent() const;
   ResultTable table() const;
 };
 
-/// N four-bars over `duration`, before they first come in line, at one tolerance. Every size has its turn in every round, small ones
-/// with as many runs as are worth a median; the medians of all runs.
+/// N four-bars over `duration`, which ends before they first become collinear, at one tolerance. Every size is run in every round, small ones
+/// often enough for a meaningful median; the medians are over all runs.
 Scaling measure_scaling(const std::vector<int>& loops, int rounds, double duration = 0.3, double tolerance = 1e-4);
 
 }  // namespace pintle::bench

@@ -1,4 +1,4 @@
-// What space costs: Bricard's six hinges for ten seconds, and a planar mechanism as one of the plane and as one in space.
+// The cost of space: Bricard's six-hinge linkage for ten seconds, and a planar mechanism computed in the plane and in space.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 namespace pintle::bench {
 namespace {
 
-constexpr double kTurn = 0.1;  // of a mechanism in a round [s], unless one run takes longer
+constexpr double kTurn = 0.1;  // time for one mechanism in a round [s], unless a single run takes longer
 
-// A mechanism that is run whole, and by a single pass at the same tolerance.
+// A mechanism that is run both as a whole run and as a single pass at the same tolerance.
 class Competitor {
  public:
   explicit Competitor(std::string name) : name_(std::move(name)) {}
   virtual ~Competitor() = default;
-  // Both ways, as often as is worth a median.
+  // Runs both, often enough for a meaningful median.
   void take_turn() {
     const Stopwatch turn;
     do {
@@ -51,7 +51,7 @@ class Competitor {
 
   std::string name_;
   Counters pass_;   // of the single pass
-  Trajectory run_;  // the whole one
+  Trajectory run_;  // the whole run
 
  private:
   double stated() const {
@@ -77,7 +77,7 @@ class CompetitorIn final : public Competitor {
   }
 
  private:
-  // The loads and the order that the pass after it has from the pilot.
+  // Obtains the loads and the order that the subsequent pass takes from the pilot.
   void make_pilot() {
     plan_.tolerance = kPilot * settings_.tolerance;
     for (plan_.choice.stages = settings_.tolerance < kTight ? 5 : 3;; plan_.choice.stages = 5) {

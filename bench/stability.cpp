@@ -1,4 +1,4 @@
-// What the end of a step does to motions across taut joints: the spectral radius of the step, without and with the bodies held.
+// The effect of the end of a step on motions across taut joints: the spectral radius of the step, without and with the bodies held.
 // theory/time section 4.1.
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 namespace pintle::bench {
 namespace {
 
-constexpr double kOutOfLine = 0.1;  // omega_c over omega_N, Eq. (4.9)
+constexpr double kOutOfLine = 0.1;  // omega_c relative to omega_N, Eq. (4.9)
 
 double largest_radius(const RadauTable& table, double pull, bool held) {
   double largest = 0;

@@ -1,4 +1,4 @@
-// Processor time of this thread, which other programs on the machine do not lengthen much, and what repetitions say.
+// Processor time of this thread, which other programs on the machine hardly affect, and statistics of repetitions.
 #pragma once
 
 #include <algorithm>
@@ -21,14 +21,14 @@ class Stopwatch {
   double start_ = now();
 };
 
-/// The times of one piece of work, repeated.
+/// The times of one repeated piece of work.
 class Times {
  public:
   void add(double seconds) { all_.push_back(seconds); }
   bool empty() const { return all_.empty(); }
   double median() const { return quantile(0.5); }
   double least() const { return quantile(0); }
-  /// Half the distance of the quartiles over the median [-].
+  /// Half the interquartile range relative to the median [-].
   double spread() const { return 0.5 * (quantile(0.75) - quantile(0.25)) / quantile(0.5); }
 
  private:

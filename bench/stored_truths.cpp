@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSameStart = 1e-9;
 
-// Kinetic energy at the start: another start has another truth [J].
+// Kinetic energy at the start [J], used to detect a changed start, which has another truth.
 double energy_of(const Problem& problem) { return problem.system->kinetic(problem.start->v); }
 
 std::filesystem::path file_of(const std::string& name) { return std::filesystem::path(PINTLE_SOURCE_DIR) / "bench" / "truths" / (name + ".json"); }

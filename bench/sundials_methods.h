@@ -1,4 +1,4 @@
-// The integrators of SUNDIALS on a mechanism, each on the equations as they stand, with joint forces read from the laws at
+// The integrators of SUNDIALS on a mechanism, each applied to the unmodified equations, with joint forces computed from the laws at
 // the output times.
 #pragma once
 
@@ -14,9 +14,9 @@ namespace pintle::bench {
 using Family = SundialsChoice::Family;
 using LinearSolver = SundialsChoice::LinearSolver;
 
-/// What a relative tolerance refers to.
+/// What a tolerance refers to.
 enum class Weights {
-  kPlain,  ///< rtol = atol = the tolerance, in SI units, for every component: what one gets without thinking
+  kPlain,  ///< rtol = atol = the tolerance, in SI units, for every component: the naive choice
   kForce,  ///< positions to tolerance x force / stiffness, velocities to tolerance x force / impedance
 };
 
@@ -24,17 +24,17 @@ struct PeerMethod {
   std::string name;
   SundialsChoice code;
   Weights weights = Weights::kPlain;
-  bool stop_at_outputs = false;  // end steps at output times rather than interpolate
+  bool stop_at_outputs = false;  // end steps at output times instead of interpolating
 };
 
-/// A method with the tolerances that are worth trying.
+/// A method with the tolerances worth trying.
 using PeerLadder = std::pair<PeerMethod, std::vector<double>>;
-/// The best few, or everything that has a chance.
+/// The best few, or every promising method.
 std::vector<PeerLadder> peer_ladders(bool all);
 /// An explicit method of order 8, for references.
 PeerMethod explicit_witness();
 
-/// Tolerances 10^from to 10^to, falling.
+/// Tolerances from 10^from to 10^to, in decreasing order.
 std::vector<double> decades(int from, int to, int per_decade = 1);
 
 MethodRun run_sundials(const PeerMethod& method, const Problem& problem, double tolerance);

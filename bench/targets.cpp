@@ -22,7 +22,7 @@ class Judge {
     add(what, fmt::format("<= {:g} ms", 1e3 * wanted), found < kNone ? fmt::format("{:.2f} ms", 1e3 * found) : "not reached", found <= wanted);
   }
 
-  // A rival that does not get there takes at least as long as the longest of its runs.
+  // A rival that does not reach the error takes at least as long as the longest of its runs.
   void faster(const std::string& problem, const std::string& what, const std::string& rival, Measure measure, double error, double wanted) {
     if (!works_.contains(problem) || !has(problem, rival)) return;
     const double ours = time_of(problem, group::kPintle, measure, error), theirs = time_of(problem, rival, measure, error);

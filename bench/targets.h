@@ -1,4 +1,4 @@
-// What the program is to reach, each beside what was measured.
+// The program's targets, each next to the measured value.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace pintle::bench {
 
-/// Of the problems that were measured; others are not judged. No scaling: null; no turns: 0.
+/// Judges only the problems that were measured. No scaling: null; no turns: 0.
 ResultTable judge_targets(const std::map<std::string, const WorkPrecision*>& works, const Scaling* scaling, double turns_per_second);
 
 }  // namespace pintle::bench

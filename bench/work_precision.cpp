@@ -10,7 +10,7 @@
 namespace pintle::bench {
 namespace {
 
-// A program that refuses the problem has not completed it.
+// A program that refuses the problem counts as not having completed it.
 MethodRun run_or_refuse(const Contestant& contestant, double setting) {
   try {
     return contestant.run(setting);
@@ -39,7 +39,7 @@ void WorkPrecision::measure(const Effort& effort) {
     for (Rung& rung : rungs_) {
       if (!rung.completed || rung.times.median() > effort.repeat_below) continue;
       const MethodRun run = contestants_[rung.contestant].run(rung.tolerance);
-      if (round == 1) rung.times = {};  // the first look was for the caches
+      if (round == 1) rung.times = {};  // the first look warmed up the caches
       rung.times.add(run.seconds);
     }
 }
@@ -83,7 +83,7 @@ ResultTable WorkPrecision::table(const std::string& title) const {
 }
 
 double WorkPrecision::time_for(std::size_t contestant, Measure measure, double error) const {
-  std::vector<std::pair<double, double>> front;  // time, error: each better than all cheaper ones
+  std::vector<std::pair<double, double>> front;  // time, error: each more accurate than all cheaper ones
   for (const Rung& rung : rungs_)
     if (rung.contestant == contestant && rung.completed) front.emplace_back(rung.times.median(), rung.error(measure));
   std::sort(front.begin(), front.end());

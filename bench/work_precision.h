@@ -1,4 +1,4 @@
-// Methods over a ladder of tolerances, timed round robin, and what one pays for a given error.
+// Methods over a range of tolerances, timed in round-robin order, and the cost of a given error.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,9 @@
 
 namespace pintle::bench {
 
-/// What an error is an error of.
+/// The quantity whose error is measured.
 enum class Measure {
-  kForce,  ///< of any joint, of its peak [-]
+  kForce,  ///< of any joint force, relative to its peak [-]
   kPlace,  ///< of the followed point, at any output time [m]
   kEnd,    ///< of the followed point, at the end [m]
 };
@@ -24,7 +24,7 @@ struct Contestant {
   std::string group;   // "Pintle" or a peer's
   std::string solves;  // which equations: "compliant", "ideal"
   std::function<MethodRun(double setting)> run;
-  std::vector<double> ladder;  // tolerances, or steps [s]: from cheap to dear
+  std::vector<double> ladder;  // tolerances, or steps [s]: from cheap to expensive
   const Samples* truth = nullptr;
 };
 
@@ -41,20 +41,20 @@ struct Rung {
 
 struct Effort {
   int rounds = 9;
-  double repeat_below = 2;  // seconds: what takes longer is looked at once
-  double hopeless = std::numeric_limits<double>::infinity();  // a run that takes longer ends its ladder [s]
+  double repeat_below = 2;  // seconds: a longer run is measured only once
+  double hopeless = std::numeric_limits<double>::infinity();  // a longer run ends its ladder [s]
 };
 
 class WorkPrecision {
  public:
   explicit WorkPrecision(std::vector<Contestant> contestants) : contestants_(std::move(contestants)) {}
 
-  /// Every method at every tolerance once in each round.
+  /// Runs every method at every tolerance once per round.
   void measure(const Effort& effort);
   const std::vector<Rung>& rungs() const { return rungs_; }
   ResultTable table(const std::string& title) const;
 
-  /// Median time [s] to reach `error`, between the rungs in proportion of the logarithms; infinite when out of reach.
+  /// Median time [s] to reach `error`, interpolated between the rungs in the logarithms; infinite if out of reach.
   double time_for(std::size_t contestant, Measure measure, double error) const;
   /// The contestant of the group (or with that name) that needs the least time, or -1.
   int best_for(const std::string& group, Measure measure, double error) const;

@@ -1,4 +1,4 @@
-// pintle check: is the model file in order, how can it move, how fast does it vibrate, do its formulas agree?
+// pintle check: is the model file valid, how can the mechanism move, how fast does it vibrate, do its formulas agree with finite differences?
 #include <fmt/format.h>
 #include <unistd.h>
 

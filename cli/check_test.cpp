@@ -1,4 +1,4 @@
-// pintle check, on the collection's four-bar and on models that are wrong.
+// pintle check, on the collection's four-bar and on faulty models.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -40,7 +40,7 @@ TEST(CheckVerb, ExitCodesSayWhatIsWrong) {
   EXPECT_TRUE(holds(open.error, "loop: ")) << open.error;
 }
 
-// A force that is not a number at some time of the run is found before it is run.
+// A force that becomes NaN at some time of the run is found before the run.
 TEST(CheckVerb, NamesAnExpressionThatBreaksDown) {
   Sandbox sandbox;
   const std::string model =

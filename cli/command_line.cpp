@@ -18,7 +18,7 @@ const CLI::App& chosen_verb(const CLI::App& app) {
   return chosen.empty() ? app : *chosen.front();
 }
 
-/// The words that could stand where `word` does.
+/// The words that would be valid in place of `word`.
 std::vector<std::string> candidates(const CLI::App& verb, const std::string& word) {
   std::vector<std::string> names;
   if (word.rfind('-', 0) == 0) {
@@ -31,7 +31,7 @@ std::vector<std::string> candidates(const CLI::App& verb, const std::string& wor
   return names;
 }
 
-/// What the parser did not understand; empty if it complains of something else.
+/// The first word that the parser did not understand; empty if it complains about something else.
 std::string first_stranger(const CLI::App& app, const CLI::App& verb) {
   for (const std::string& word : verb.remaining()) return word;
   for (const std::string& word : app.remaining(true)) return word;

@@ -1,4 +1,4 @@
-// The command line as it was typed, and what is wrong with it.
+// The command line as typed, and what is wrong with it.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ namespace pintle::cli {
 void remember_command_line(int n_words, const char* const* words);
 const std::string& command_line();
 
-/// The word so that a shell would read it as one.
+/// The word, quoted so that a shell reads it as one word.
 std::string shell_word(const std::string& word);
 
-/// What is wrong, with the verb or option that was probably meant.
+/// Explains what is wrong, and suggests the verb or option that was probably meant.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace pintle::cli

@@ -1,4 +1,4 @@
-// The program as a shell sees it, apart from running a model: options, exit codes, files.
+// The program as seen from a shell, except for running models: options, exit codes, files.
 #include <gtest/gtest.h>
 
 #include "cli/sandbox_for_tests.h"

@@ -49,7 +49,7 @@ void add_companions(CLI::App& app, int& exit_code) {
     CLI::App* verb = app.add_subcommand(companion.verb, companion.about);
     const std::string missing = fmt::format("pintle {} needs the program {}, which is neither next to pintle nor on the path.\n    try: {}\n", companion.verb, companion.program, companion.advice);
     verb->prefix_command();
-    verb->footer(missing);  // of its help, too
+    verb->footer(missing);  // also in its help
     verb->callback([&exit_code, missing] {
       print_error(missing);
       exit_code = kFileError;

@@ -1,4 +1,4 @@
-// pintle compare: what the compliance of the joints does, beside ideal joints or relative coordinates; models and laws side by side.
+// pintle compare: the effect of joint compliance, compared with ideal joints or relative coordinates; models and laws side by side.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -44,7 +44,7 @@ struct CompareOptions : ModelOptions {
   bool several() const { return models.size() > 1 || !laws.empty(); }
 };
 
-/// One of the models that are run side by side.
+/// One of the models to be run side by side.
 struct Variant {
   std::string name, path;
   Model model;
@@ -52,14 +52,14 @@ struct Variant {
 
 Equations equations_of(const CompareOptions& options) { return to_equations(equations_words().at(options.against)); }
 
-/// The stem of a model's file where that tells the models apart, else its path.
+/// The stem of a model's file name if that distinguishes the models, else its path.
 std::string name_of(const std::string& path, const std::vector<std::string>& paths) {
   const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
   const auto alike = std::count_if(paths.begin(), paths.end(), [&](const std::string& other) { return stem(other) == stem(path); });
   return alike > 1 ? path : stem(path);
 }
 
-/// "B=maxwell" where that tells the laws apart, else with its keys.
+/// "B=maxwell" if that distinguishes the laws, else with its keys.
 std::string name_of_law(const std::string& law, const std::vector<std::string>& laws) {
   constexpr std::string_view kJoint = "joint.";
   const auto head = [](const std::string& text) { return text.substr(0, text.find(',')); };
@@ -78,7 +78,7 @@ Variant read_variant(const CompareOptions& options, const std::string& path, con
   return out;
 }
 
-/// Each model as it is and with each law; with --against the first one with other equations too.
+/// Each model unchanged and with each law; with --against also the first one with other equations.
 std::vector<Variant> read_variants(const CompareOptions& options) {
   std::vector<Variant> variants;
   for (const std::string& path : options.models) {
@@ -99,7 +99,7 @@ std::string plot_file(const CompareOptions& options) {
   return options.plot.empty() ? std::filesystem::path(options.models.front()).stem().string() + "-compare.svg" : options.plot;
 }
 
-/// The same for both kinds of comparison.
+/// Output common to both kinds of comparison.
 template <class Text, class JsonText>
 void show(const CompareOptions& options, const Plot& picture, const Text& text, const JsonText& json) {
   const std::string plot = plot_file(options);

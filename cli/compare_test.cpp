@@ -57,7 +57,7 @@ TEST_F(CompareVerb, SeveralModelsSideBySide) {
   ASSERT_EQ(json["runs"].size(), 2U);
   EXPECT_EQ(json["runs"][1]["name"], "heavy");
   const nlohmann::json& loads = json["joints"][0]["loads"];
-  for (const char* what : {"peak_change", "mean_change", "rms_change"}) EXPECT_NEAR(loads[1][what].get<double>(), 1, 1e-4) << what;  // twice the weight of the same shape
+  for (const char* what : {"peak_change", "mean_change", "rms_change"}) EXPECT_NEAR(loads[1][what].get<double>(), 1, 1e-4) << what;  // twice the weight, with the same time history
   EXPECT_EQ(loads[1]["peak_difference_is"], "physical");
   EXPECT_EQ(loads[0]["peak_change"], 0);
   const std::string picture = sandbox_.read("pendulum-compare.svg");
@@ -73,7 +73,7 @@ TEST_F(CompareVerb, LawsSideBySide) {
   for (const char* part : {"4 runs side by side", "pendulum, pin=linear ", "pendulum, pin=maxwell ", "ideal joints", "joint pin: law maxwell instead of linear"}) EXPECT_TRUE(holds(answer.out, part)) << answer.out;
 }
 
-// A joint that is not in both: a dash, and no number.
+// For a joint that is missing in one model: a dash instead of a number.
 TEST_F(CompareVerb, JointsOfOneModelOnly) {
   sandbox_.write("other.toml", kCompared);
   EXPECT_EQ(sandbox_.shell("sed -i 's/joint.pin/joint.hinge/' other.toml").exit_code, 0);
@@ -88,7 +88,7 @@ TEST_F(CompareVerb, LawIsAnOptionOfRunAndCheck) {
   const Answer answer = sandbox_.pintle("run pendulum.toml --law joint.pin=maxwell,branch_ratio=[1],branch_time=[0.01]");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;
   EXPECT_TRUE(holds(answer.out, "joint pin: law maxwell instead of linear")) << answer.out;
-  EXPECT_EQ(sandbox_.pintle("report pendulum-run").exit_code, 0);  // which reads the model as it was run
+  EXPECT_EQ(sandbox_.pintle("report pendulum-run").exit_code, 0);  // it reads the model as it was run
   EXPECT_TRUE(holds(sandbox_.read("pendulum-run.html"), "--law joint.pin=maxwell"));
   EXPECT_TRUE(holds(sandbox_.pintle("check pendulum.toml --law joint.pin=linear,stiffness=1e5").out, "joint pin: law linear"));
   const Answer wrong = sandbox_.pintle("check pendulum.toml --law joint.pin=liner");

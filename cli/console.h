@@ -1,23 +1,23 @@
-// Standard output and standard error: who is reading, and did it arrive.
+// Standard output and standard error: who is reading, and whether the output arrived.
 #pragma once
 
 #include <string_view>
 
 namespace pintle::cli {
 
-/// A person at a terminal that understands escapes.
+/// Whether a person reads it, at a terminal that understands escapes.
 bool is_terminal(int descriptor);
 
-/// Colour only on a terminal, and never where NO_COLOR is set.
+/// Colour only on a terminal, and never if NO_COLOR is set.
 bool wants_colour(int descriptor);
 
-/// To standard output. Throws FileError if it does not arrive (a full disk, for example).
+/// Writes to standard output. Throws FileError if it does not arrive (because of a full disk, for example).
 void print_out(std::string_view text);
 
-/// To standard error.
+/// Writes to standard error.
 void print_error(std::string_view text);
 
-/// A line on standard error that rewrites itself, for a person who watches.
+/// A line on standard error that overwrites itself, for a person watching.
 class StatusLine {
  public:
   StatusLine() = default;
@@ -26,7 +26,7 @@ class StatusLine {
   ~StatusLine() { clear(); }
 
   void show(std::string_view text);
-  /// Wipes the line, so that other output may follow.
+  /// Clears the line, so that other output may follow.
   void clear();
 
  private:

@@ -31,7 +31,7 @@ bool is_json(const std::filesystem::path& path) {
   return path.extension() == ".json";
 }
 
-/// What --to says, else the ending of --out, else the form that the model does not have.
+/// As --to says, else by the extension of --out, else the format that the model does not have.
 bool wants_json(const ConvertOptions& options) {
   if (!options.to.empty()) return options.to == "json";
   return options.out.empty() ? !is_json(options.model) : is_json(options.out);

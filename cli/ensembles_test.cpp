@@ -57,7 +57,7 @@ TEST_F(SweepVerb, SaysWhatIsWrong) {
 
 using SlowSweepVerb = SweepVerb;
 
-// SIGKILL now and then, at times of nobody's choosing; in the end the file is that of an undisturbed sweep.
+// SIGKILL at random times; the resulting file equals that of an undisturbed sweep.
 TEST_F(SlowSweepVerb, KilledSweepsGoOn) {
   const std::string words = "sweep pendulum.toml --sample 1500 --quiet --out ";
   ASSERT_EQ(sandbox_.pintle(words + "whole.h5").exit_code, 0);

@@ -1,4 +1,4 @@
-// What the program says to the shell. docs/reference/exit-codes.md explains each.
+// The program's exit codes. docs/reference/exit-codes.md explains each.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ enum ExitCode : int {
 
 ExitCode exit_code_of(Outcome outcome);
 
-/// Of several runs: stopped or failed, else that of the first that did not complete.
+/// For several runs: stopped or failed, else the code of the first run that did not complete.
 ExitCode exit_code_of(const std::vector<Outcome>& outcomes);
 
 /// The same for --help.

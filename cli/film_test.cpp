@@ -1,4 +1,4 @@
-// pintle film, on runs made for it. Films need ffmpeg and librsvg: without them these tests see the message only.
+// pintle film, on runs made for these tests. Films need ffmpeg and librsvg: without them only the message is tested.
 #include <gtest/gtest.h>
 
 #include "cli/sandbox_for_tests.h"
@@ -13,7 +13,7 @@ class FilmVerb : public testing::Test {
     EXPECT_EQ(sandbox_.pintle("run bob.toml --quiet").exit_code, 0);
   }
 
-  /// True, once: what films need is not here, and the answer says what to install.
+  /// True if something that films need is missing; checks that the answer says what to install.
   static bool unavailable(const Answer& answer) {
     if (answer.exit_code != 6) return false;
     return holds(answer.error, "without librsvg") || holds(answer.error, "apt-get install ffmpeg");
@@ -26,7 +26,7 @@ struct Gif {
   int width = 0, height = 0, n_frames = 0, centiseconds = 0;
 };
 
-/// Walks through the blocks of a GIF file.
+/// Reads through the blocks of a GIF file.
 Gif gif_of(const std::string& file) {
   const auto byte = [&file](std::size_t i) { return static_cast<unsigned char>(file.at(i)); };
   const auto colours = [&byte](std::size_t flags) { return byte(flags) & 0x80 ? std::size_t{3} << ((byte(flags) & 7) + 1) : 0; };
@@ -57,7 +57,7 @@ TEST_F(FilmVerb, GifHasTheFramesAskedFor) {
   EXPECT_EQ(answer.out, "bob-run.gif\n");
   const Gif gif = gif_of(sandbox_.read("bob-run.gif"));
   EXPECT_EQ(gif.width, 200);
-  EXPECT_EQ(gif.n_frames, 40);  // 0.4 s at a fifth of the speed, 20 a second
+  EXPECT_EQ(gif.n_frames, 40);  // 0.4 s at a fifth of real time, 20 frames per second
   EXPECT_EQ(gif.centiseconds, 200);
 }
 
@@ -86,7 +86,7 @@ TEST_F(FilmVerb, WithoutFfmpegItSaysWhatToInstall) {
   EXPECT_EQ(sandbox_.read("bob-run.gif"), "old");
 }
 
-// An encoder that fails half-way: no film, and what was there stays.
+// An encoder that fails half-way produces no film, and leaves the existing one.
 TEST_F(FilmVerb, FailedEncoderLeavesNoHalfFilm) {
   sandbox_.write("bob-run.gif", "old");
   const Answer answer = sandbox_.shell(

@@ -1,4 +1,4 @@
-// pintle fmt: puts the layout of TOML model files in order.
+// pintle fmt: tidies the layout of TOML model files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

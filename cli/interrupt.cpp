@@ -11,9 +11,9 @@ namespace {
 constexpr double kOneRequest = 0.3;  // s
 
 volatile std::sig_atomic_t stop_asked = 0;
-double asked_at = 0;  // s; read and written by the handler alone
+double asked_at = 0;  // s; read and written only by the handler
 
-// Calls only what POSIX allows in a handler.
+// Calls only what POSIX allows in a signal handler.
 extern "C" void ask_to_stop(int signal) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

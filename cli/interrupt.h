@@ -1,14 +1,14 @@
-// Ctrl-C and termination: the first asks politely, the second kills.
+// Ctrl-C and termination: the first signal requests a stop, the second kills.
 #pragma once
 
 namespace pintle::cli {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; the next one does what it always does. Those that follow
-/// within 0.3 s belong to the first: `timeout` and job runners signal a process and then its whole group. A signal that
-/// the caller had switched off (nohup, background jobs) stays off.
+/// From now on the first SIGINT or SIGTERM only sets a flag; the next one has its default effect. Signals within 0.3 s
+/// of the first count as part of it: `timeout` and job runners signal a process and then its whole group. A signal that
+/// the caller had disabled (nohup, background jobs) stays disabled.
 void catch_interrupts();
 
-/// Whether one has arrived.
+/// Whether a signal has arrived.
 bool interrupted();
 
 }  // namespace pintle::cli

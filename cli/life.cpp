@@ -1,4 +1,4 @@
-// pintle life: how long rolling bearings last, and how hard plain ones are pressed, by the joint forces of a run.
+// pintle life: the life of rolling bearings and the pressure on plain ones, from the joint forces of a run.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -34,7 +34,7 @@ struct LifeOptions : ModelOptions {
   bool json = false, quiet = false;
 };
 
-/// "joint.NAME.bearing" and what follows.
+/// Whether the path of a change starts with "joint.NAME.bearing".
 bool is_of_bearing(const std::string& change) {
   const std::string path = change.substr(0, change.find('='));
   const std::size_t name = path.find('.'), rest = name == std::string::npos ? name : path.find('.', name + 1);
@@ -43,7 +43,7 @@ bool is_of_bearing(const std::string& change) {
   return tail == "bearing" || tail.starts_with("bearing.");
 }
 
-/// The first change that asks for another run than the one that is there; "" if none does.
+/// The first change that requires a new run instead of the existing one; "" if none does.
 std::string needs_a_run(const LifeOptions& options) {
   for (const std::string& change : laws_and_overrides(options.laws, options.overrides))
     if (!is_of_bearing(change)) return change;

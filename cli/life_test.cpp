@@ -1,4 +1,4 @@
-// pintle life, on a pendulum: of its model, and of a run that is there.
+// pintle life, on a pendulum: from its model, and from an existing run.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -35,7 +35,7 @@ TEST_F(LifeVerb, WithoutSizesItSaysWhatItNeeds) {
   EXPECT_FALSE(holds(answer.out, "L10h"));
 }
 
-// The model's sizes, the same put onto its run, and the run's own summary: one table.
+// The model's dimensions, the same set on its run, and the run's own summary all give one table.
 TEST_F(LifeVerb, RunAndModelAgree) {
   const Json of_model = bearing("life sized.toml --json");
   EXPECT_EQ(of_model["joint"], "pin");
@@ -49,7 +49,7 @@ TEST_F(LifeVerb, RunAndModelAgree) {
   EXPECT_TRUE(holds(sandbox_.pintle("run sized.toml").out, "Rolling bearings"));
 }
 
-// Twice the rating: eight times the life of a ball bearing.
+// Twice the rating gives eight times the life of a ball bearing.
 TEST_F(LifeVerb, LifeGoesAsTheCubeOfTheRating) {
   const Json one = bearing("life sized.toml --json"), two = bearing("life sized.toml --json --set joint.pin.bearing.dynamic_load_rating='2 kN'");
   EXPECT_NEAR(two["life"].get<double>(), 8 * one["life"].get<double>(), 1e-9 * two["life"].get<double>());

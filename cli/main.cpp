@@ -1,4 +1,4 @@
-// The program and its verbs. Some are programs of their own beside it.
+// The program and its verbs. Some verbs are separate programs next to it.
 #include "cli/companions.h"
 #include "cli/program.h"
 #include "cli/verbs.h"

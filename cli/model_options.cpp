@@ -14,7 +14,7 @@
 namespace pintle::cli {
 namespace {
 
-/// A model may leave its duration to the command line; a run may not.
+/// A model may leave its duration to the command line; a run must have one.
 void check_duration(const Model& model, const std::string& text, const std::string& file) {
   if (model.simulate.duration > 0) return;
   const Document document = parse_document(text, file);
@@ -46,7 +46,7 @@ void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance, const ch
 
 namespace {
 
-// The words of a key of [simulate] and their synonyms, and what each stands for.
+// The words of a key of [simulate] and their synonyms, each with the word it stands for.
 std::map<std::string, std::string> words_of(const char* key) {
   const KeySpec spec = *Schema::model().assemble("simulate").find(key);
   std::map<std::string, std::string> all(spec.synonyms.begin(), spec.synonyms.end());

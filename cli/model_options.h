@@ -1,4 +1,4 @@
-// What every verb that runs a model asks for: the file, changes to it, duration, tolerance.
+// Options of every verb that runs a model: the file, changes to it, duration, tolerance.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ struct ModelOptions {
   std::string duration, tolerance, tolerance_of, method, equations, max_step;
 };
 
-/// MODEL, and the changes to it.
+/// MODEL, and changes to it.
 void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance = true);
 
 inline constexpr const char* kLawMeaning = "choose the law or friction of a joint, e.g. joint.A=linear,stiffness=1e7 (repeatable)";
@@ -29,25 +29,25 @@ inline constexpr const char* kLawMeaning = "choose the law or friction of a join
 /// --set and --law.
 void add_set_and_law(CLI::App& verb, std::vector<std::string>& overrides, std::vector<std::string>& laws, const char* law_meaning = kLawMeaning);
 
-/// These, --duration and, where the verb has one tolerance, --tolerance.
+/// --set, --law, --duration and, if the verb has a single tolerance, --tolerance.
 void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance = true, const char* law_meaning = kLawMeaning);
 
-/// The words for equations, and what each stands for in the model file.
+/// The words for equations, each with its word in the model file.
 const std::map<std::string, std::string>& equations_words();
 /// The words for methods.
 std::vector<std::string> method_names();
-/// Of the words for equations all, or all but newtonian.
+/// All words for equations, or all except newtonian.
 std::vector<std::string> equations_names(bool newtonian);
 
-/// Empty for a file that can be drawn into as SVG; else what is wrong with it. For CLI11's check().
+/// Empty for a file that an SVG can be written to; else what is wrong with it. For CLI11's check().
 std::string svg_problem(const std::string& file);
-/// The same; "none" will do.
+/// The same, but "none" is also accepted.
 std::string svg_or_none_problem(const std::string& file);
 
-/// The laws first, so that --set may change their keys, as parse_model() takes them.
+/// In the order for parse_model(): the laws first, so that --set may change their keys.
 std::vector<std::string> laws_and_overrides(const std::vector<std::string>& laws, const std::vector<std::string>& overrides);
 
-/// The same; --duration and its kin are --set simulate.duration and its kin.
+/// The same, with --duration and similar options as --set simulate.duration and so on.
 std::vector<std::string> all_overrides(const ModelOptions& options);
 
 /// The file's text and the model in it, ready to run. Throws InputError, FileError.
@@ -58,7 +58,7 @@ struct ReadModel {
 };
 ReadModel read_model_to_run(const ModelOptions& options);
 
-/// Calls `run`, and puts the file's name before an assembly's message.
+/// Calls `run`, and prefixes the file name to the message of an assembly error.
 template <class F>
 auto with_file_name(const std::string& file, F&& run) {
   try {

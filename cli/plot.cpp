@@ -41,9 +41,9 @@ struct PlotOptions {
   double width = 0, dots_per_inch = 192;
 
   bool png() const { return out.ends_with(".png"); }
-  /// Pictures of a pin that are asked for: polar diagrams, the orbit, wear.
+  /// Number of requested pictures of a pin: polar diagrams, the orbit, wear.
   int pictures_of_pins() const { return !polar.empty() + !orbit.empty() + !wear.empty(); }
-  /// Devices and pipes have no ending.
+  /// Devices and pipes have no extension.
   bool drawable() const {
     const auto type = std::filesystem::status(out).type();
     const bool replaced = type == std::filesystem::file_type::regular || type == std::filesystem::file_type::not_found;
@@ -71,7 +71,7 @@ Plot plot_of_other(const std::string& run, const PlotRequest& request) {
   }
 }
 
-/// Folders alone, where they tell the runs apart.
+/// Shortens names to the folders if that distinguishes the runs.
 template <class Named>
 void shorten_names(std::vector<Named>& plots) {
   std::set<std::string> names;

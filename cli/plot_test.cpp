@@ -1,4 +1,4 @@
-// pintle plot, on a run folder made up for it.
+// pintle plot, on a run folder made for these tests.
 #include <gtest/gtest.h>
 
 #include "cli/sandbox_for_tests.h"
@@ -45,7 +45,7 @@ TEST_F(PlotVerb, PolarLoadDiagrams) {
   EXPECT_EQ(sandbox_.pintle("plot four-run --polar slide").exit_code, 2);
 }
 
-// A pendulum's rows are 10 ms apart.
+// The pendulum's rows are 10 ms apart.
 TEST_F(PlotVerb, PoincareSections) {
   sandbox_.write("pendulum.toml", pendulum_toml("0.2 s", "10 ms"));
   EXPECT_EQ(sandbox_.pintle("run pendulum.toml -q").exit_code, 0);
@@ -62,7 +62,7 @@ TEST_F(PlotVerb, PoincareSections) {
   EXPECT_EQ(sandbox_.pintle("plot pendulum-run --column joint.pin.angle --every -1").exit_code, 2);
 }
 
-// The sample has the columns of one.
+// The sample has columns of only one joint.
 TEST_F(PlotVerb, WithoutWordsTheForcesOfAllJointsAreDrawn) {
   const Answer answer = sandbox_.pintle("plot four-run");
   ASSERT_EQ(answer.exit_code, 0) << answer.error;
@@ -93,7 +93,7 @@ TEST_F(PlotVerb, DamagedRunGivesCode6AndItsPlace) {
   EXPECT_TRUE(holds(answer.error, "series.csv:54:5: series")) << answer.error;
 }
 
-/// Four bytes of a PNG file, the highest first.
+/// Four bytes of a PNG file as a number, highest byte first.
 unsigned number_at(const std::string& png, std::size_t place) {
   unsigned number = 0;
   for (std::size_t i = place; i < place + 4; ++i) number = number << 8 | static_cast<unsigned char>(png.at(i));
@@ -108,7 +108,7 @@ TEST_F(PlotVerb, PngHasTheSizeAskedFor) {
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_EQ(number_at(png, 16), 1000u);
   EXPECT_EQ(png.substr(37, 4), "pHYs");
-  EXPECT_EQ(number_at(png, 41), 9449u);  // 240 to the inch, to the metre
+  EXPECT_EQ(number_at(png, 41), 9449u);  // 240 per inch, converted to per metre
   EXPECT_EQ(number_at(png, 50), 0x5024e7f8u);  // zlib's crc32 of the chunk
 }
 
@@ -132,7 +132,7 @@ TEST_F(PlotVerb, RunsOfOneNameAreToldApartByTheirFolders) {
   EXPECT_TRUE(holds(answer.out, ">four-run: |F|"));
 }
 
-// The words of the command line must not overwrite a model, nor put SVG into a file of another kind.
+// The command must not overwrite a model, nor write SVG into a file of another type.
 TEST_F(PlotVerb, OtherEndingsAreRefused) {
   sandbox_.write("four.toml", "mine");
   for (const char* file : {"four.toml", "forces.pdf"}) {

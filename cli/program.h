@@ -1,4 +1,4 @@
-// What every program of Pintle's does around its verbs: the command line, messages, exit codes.
+// The framework common to all of Pintle's programs: command line, messages, exit codes.
 #pragma once
 
 #include <initializer_list>
@@ -11,7 +11,7 @@ namespace pintle::cli {
 
 using AddVerb = void (*)(CLI::App& app, int& exit_code);
 
-/// Parses the command line, calls the chosen verb, and turns what it throws into a message and an exit code.
+/// Parses the command line, calls the chosen verb, and turns its exceptions into messages and exit codes.
 int run_program(int argc, char** argv, std::initializer_list<AddVerb> verbs);
 
 }  // namespace pintle::cli

@@ -12,7 +12,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr double kLongRun = 2;  // [s] after which the notes on the model are shown, and not only with its results
+constexpr double kLongRun = 2;  // [s] after which the notes on the model are shown during the run instead of only with its results
 
 using Json = nlohmann::ordered_json;
 
@@ -20,7 +20,7 @@ double fraction(const Progress& progress) {
   return progress.duration > 0 ? std::clamp(progress.t / progress.duration, 0.0, 1.0) : 0.0;
 }
 
-/// Seconds until this pass is through, at this speed.
+/// Seconds until this pass is finished, at this speed.
 double to_go(const Progress& progress, double speed) {
   return std::max(0.0, progress.duration - progress.t) / speed;
 }

@@ -1,4 +1,4 @@
-// How far a run has come, on standard error: a line that rewrites itself, or one JSON object per line, or nothing.
+// The progress of a run, on standard error: a line that overwrites itself, or one JSON object per line, or nothing.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@ namespace pintle::cli {
 
 enum class ProgressStyle { kNone, kLine, kJson };
 
-/// As --progress asks; "auto": a line where somebody watches.
+/// As --progress says; "auto": a line if somebody is watching.
 ProgressStyle progress_style(bool quiet, std::string_view asked = "auto");
 
 class ProgressReport {
  public:
-  /// The notes on the model are shown above the line while a run takes long: what they warn of may be why.
+  /// The notes on the model are shown above the line if a run takes long: what they warn of may be the reason.
   explicit ProgressReport(ProgressStyle style, std::vector<std::string> notes = {}) : style_(style), notes_(std::move(notes)) {}
 
   void show(const Progress& progress);
-  /// Shows how far a run has come, and stops it once the user has interrupted it. The report is to outlive it.
+  /// Shows the progress of a run, and stops the run when the user interrupts it. The report must outlive the observer.
   Observer observer();
-  /// Wipes the line, so that other output may follow.
+  /// Clears the line, so that other output may follow.
   void clear() { line_.clear(); }
-  /// The last JSON object: how it ended and where the results are.
+  /// The last JSON object: the outcome of the run and the place of its results.
   void finish(const Trajectory& trajectory, const std::filesystem::path& folder);
 
  private:
@@ -37,7 +37,7 @@ class ProgressReport {
   void show_notes();
 
   ProgressStyle style_;
-  std::vector<std::string> notes_;  // that are still to be shown
+  std::vector<std::string> notes_;  // still to be shown
   Progress pass_start_{0, 0, 0, 0};
   StatusLine line_;
 };
@@ -45,10 +45,10 @@ class ProgressReport {
 /// "12.3 s", "4 min", "1.5 h".
 std::string clock_text(double seconds);
 
-/// The line without its control characters: "0.312 s of 0.63 s   49 %   pass 2   1200 s/s   0.3 s to go".
+/// The line without control characters: "0.312 s of 0.63 s   49 %   pass 2   1200 s/s   0.3 s to go".
 std::string progress_line(const Progress& progress, double speed);
 
-/// The JSON object without its line end.
+/// The JSON object without its line ending.
 std::string progress_json(const Progress& progress, double speed);
 
 }  // namespace pintle::cli

@@ -1,4 +1,4 @@
-// pintle report, on runs made for it.
+// pintle report, on runs made for these tests.
 #include "pintle/report.h"
 
 #include <gtest/gtest.h>
@@ -29,8 +29,8 @@ TEST_F(ReportVerb, WritesBesideTheRunFolder) {
   EXPECT_EQ(answer.out, "bob-run.html\n");
   const std::string html = sandbox_.read("bob-run.html");
   EXPECT_TRUE(holds(html, "<title>Pendulum: Pintle report</title>"));
-  EXPECT_TRUE(holds(html, "body.bob.mass=2"));                // changed by the command line ...
-  EXPECT_TRUE(holds(html, "# its bearing"));                  // ... in this file
+  EXPECT_TRUE(holds(html, "body.bob.mass=2"));                // changed on the command line ...
+  EXPECT_TRUE(holds(html, "# its bearing"));                  // ... from this file
   EXPECT_EQ(sandbox_.pintle("report bob-run").exit_code, 0);  // its own page may be replaced
 }
 
@@ -72,12 +72,12 @@ TEST_F(ReportVerb, DamagedRunsAreRefusedWithTheirPlace) {
   EXPECT_TRUE(holds(answer_with("model-as-run.toml", model + "# changed"), "not the model that was run"));
   EXPECT_TRUE(holds(answer_with("summary.json", summary.substr(0, 100)), "summary.json"));
   EXPECT_TRUE(holds(answer_with("summary.json", "{}"), "summary.json"));
-  for (std::size_t cut = 7; cut + 2 < summary.size(); cut += summary.size() / 9)  // the last line feed is not missed
+  for (std::size_t cut = 7; cut + 2 < summary.size(); cut += summary.size() / 9)  // losing the last line feed does no harm
     EXPECT_TRUE(holds(answer_with("summary.json", summary.substr(0, cut)), "summary.json")) << cut;
   EXPECT_FALSE(sandbox_.has("bob-run.html"));
 }
 
-// Bytes changed by chance anywhere in the folder: a page, or an error that names what is wrong. Nothing else, and no crash.
+// Random bytes changed anywhere in the folder give a page, or an error that names the fault. Nothing else, and no crash.
 TEST_F(ReportVerb, AnyDamageIsAnErrorOrAPage) {
   const std::array<const char*, 3> files{"summary.json", "series.csv", "model-as-run.toml"};
   const std::string folder = (sandbox_ / "bob-run").string();
@@ -105,7 +105,7 @@ TEST_F(ReportVerb, AnyDamageIsAnErrorOrAPage) {
   EXPECT_GT(n_errors, 75u);
 }
 
-// The page's script, run by a browser where there is one: it goes to the largest peak and shows the table's number.
+// The page's script, run by a browser if one is available: it goes to the largest peak and shows the number of the table.
 using ReportInBrowserSlow = ReportVerb;
 
 TEST_F(ReportInBrowserSlow, ShowsThePeak) {

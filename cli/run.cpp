@@ -50,7 +50,7 @@ std::filesystem::path run_folder(const RunOptions& options) {
   return std::filesystem::path(options.model).stem().string() + "-run";
 }
 
-/// Said where it may matter to somebody; "" elsewhere.
+/// The memory used if it is large enough to matter; otherwise "".
 std::string memory_text() {
   constexpr double kWorthSaying = 100;
   rusage use{};

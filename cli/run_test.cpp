@@ -19,7 +19,7 @@ class RunVerb : public testing::Test {
 TEST_F(RunVerb, WritesTheRunFolderAndATableWithoutEscapes) {
   const Answer answer = sandbox_.pintle("run pendulum.toml");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;
-  EXPECT_EQ(answer.error, "");  // no progress in a pipe
+  EXPECT_EQ(answer.error, "");  // no progress is shown in a pipe
   EXPECT_TRUE(holds(answer.out, "pin"));
   EXPECT_TRUE(holds(answer.out, "Results in pendulum-run/"));
   EXPECT_FALSE(holds(answer.out, "\x1b"));

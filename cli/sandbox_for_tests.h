@@ -1,4 +1,4 @@
-// A folder to run the program in, and what it answered: for the tests of the command line.
+// A folder in which the program is run, and its answers: for the tests of the command line.
 #pragma once
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ class Sandbox {
   ScratchFolder folder_;
 };
 
-/// A bob of 1 kg, 1 m from its pin, level at the start; the comment is for those who look for it.
+/// A bob of 1 kg, 1 m from its pin, horizontal at the start; tests look for its comment.
 inline std::string pendulum_toml(const std::string& duration, const std::string& output_step) {
   return fmt::format(R"(format = 1
 name = "Pendulum"
@@ -63,7 +63,7 @@ between = ["ground.O", "bob.O"]
                      duration, output_step);
 }
 
-/// The shell command, sent the signal after some seconds; in the foreground, so that it comes once. Exit code: the command's.
+/// Runs a shell command and sends it the signal after some seconds; in the foreground, so that it gets only one. Exit code: the command's.
 inline std::string signalled(const char* signal, double seconds, const std::string& command) {
   return fmt::format("timeout --foreground --preserve-status -s {} {} {}", signal, seconds, command);
 }

@@ -1,4 +1,4 @@
-// pintle solvers: what every integration method costs on a model, and what its joint forces are worth.
+// pintle solvers: the cost of every integration method for a model, and the accuracy of its joint forces.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -56,7 +56,7 @@ TEST_F(SolversVerb, SaysWhatIsWrong) {
   EXPECT_TRUE(holds(answer.error, "newtonian")) << answer.error;
 }
 
-// The paper's methods in an ordinary run.
+// The paper's methods in a normal run.
 TEST_F(SolversVerb, RunTakesTheMethodsToo) {
   const Answer answer = sandbox_.pintle("run pendulum.toml --method ode23t --tolerance 1e-3 --json");
   EXPECT_EQ(answer.exit_code, 0) << answer.error << answer.out;

@@ -1,4 +1,4 @@
-// pintle stiffen: how stiff the joints must be for the wanted digits of the forces.
+// pintle stiffen: how stiff the joints must be for the required digits of the forces.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ struct StiffenOptions : ModelOptions {
   bool json = false, quiet = false, write = false;
 };
 
-/// The model file with the recommended values, comments and order kept.
+/// The model file with the recommended values; comments and order are kept.
 std::string with_recommended(std::string text, const Stiffening& found, const std::string& file) {
   for (const StiffenJoint& joint : found.joints) {
     if (joint.kept) continue;

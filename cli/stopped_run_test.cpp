@@ -1,4 +1,4 @@
-// Runs that are stopped from outside: signals and full disks. What the run folder held before, or holds now, is valid.
+// Runs stopped from outside, by signals and full disks. The previous or the new content of the run folder is always valid.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ class StoppedRun : public testing::Test {
  protected:
   StoppedRun() { sandbox_.write("pendulum.toml", kStopped); }
   std::string stopped_by(const char* signal) { return signalled(signal, 2, kLong); }
-  /// Nothing is left beside the run folder: no temporary folder, no half a file.
+  /// Nothing is left next to the run folder: no temporary folder, no partial file.
   std::string others() { return sandbox_.shell("ls -A | grep -v -e pendulum -e '^[.]out$' -e '^[.]error$'").out; }
   Sandbox sandbox_;
 };
@@ -35,7 +35,7 @@ TEST_F(StoppedRun, InterruptKeepsTheResults) {
   EXPECT_EQ(others(), "");
 }
 
-// What `timeout` does when it is not told to stay in the foreground.
+// The default behaviour of `timeout` when not told to stay in the foreground.
 TEST_F(StoppedRun, ASignalToTheProcessAndToItsGroupIsOneRequest) {
   const Answer answer = sandbox_.shell(std::string("timeout --preserve-status -s INT 2 ") + kLong + "--quiet");
   EXPECT_EQ(answer.exit_code, 130) << answer.error;
@@ -64,7 +64,7 @@ TEST_F(StoppedRun, AFullDiskLeavesNoHalfRun) {
   EXPECT_EQ(others(), "");
 }
 
-// Root may mount a small disk; elsewhere the test above stands for it.
+// Root may mount a small disk; for other users the test above takes its place.
 TEST_F(StoppedRun, ASmallDisk) {
   std::filesystem::create_directory(sandbox_ / "pendulum-disk");
   if (sandbox_.shell("mount -t tmpfs -o size=64k tmpfs pendulum-disk").exit_code != 0) GTEST_SKIP() << "cannot mount";
@@ -86,7 +86,7 @@ TEST_F(StoppedRun, AFullStandardOutputIsAnError) {
     EXPECT_EQ(answer.exit_code, 6) << words << answer.error;
     EXPECT_FALSE(answer.error.empty()) << words;
   }
-  EXPECT_EQ(read_run(sandbox_ / "pendulum-run").trajectory.n_rows(), 21U);  // it was written before
+  EXPECT_EQ(read_run(sandbox_ / "pendulum-run").trajectory.n_rows(), 21U);  // from the previous run
 }
 
 TEST_F(StoppedRun, AFullOutputFileIsAnError) {
@@ -99,7 +99,7 @@ TEST_F(StoppedRun, AFullOutputFileIsAnError) {
   }
 }
 
-// A reader that has seen enough, as in `pintle schema | head`, is no reason to complain.
+// A reader that stops early, as in `pintle schema | head`, is not an error.
 TEST_F(StoppedRun, AClosedPipeEndsQuietly) {
   const Answer answer = sandbox_.shell("\"$PINTLE\" schema | head -n 1");
   EXPECT_EQ(answer.error, "");

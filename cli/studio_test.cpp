@@ -1,4 +1,4 @@
-// pintle studio over real sockets: what reaches it from outside its page, and that it lives on.
+// pintle studio over real sockets: requests from outside its page, and that it survives them.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path kProgram = fs::path(PINTLE_BINARY).parent_path() / "pintle-studio";
 
-/// A studio of its own, in a folder of its own, at a free port.
+/// A new studio in a new folder, at a free port.
 class StudioServer : public testing::Test {
  protected:
   void SetUp() override {
@@ -46,7 +46,7 @@ class StudioServer : public testing::Test {
     child_ = fork();
     ASSERT_GE(child_, 0);
     if (child_ == 0) {
-      signal(SIGINT, SIG_DFL);  // a shell that starts the tests in the background ignores it for all
+      signal(SIGINT, SIG_DFL);  // a shell that starts the tests in the background makes all of them ignore it
       if (chdir(folder_.c_str()) != 0 || freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
       execl(kProgram.c_str(), "pintle", "studio", "a.toml", "--no-browser", "--port", "0", "--pages", ".pages", static_cast<char*>(nullptr));
       _exit(1);
@@ -74,8 +74,8 @@ class StudioServer : public testing::Test {
     return -1;
   }
 
-  /// Sends bytes as they are, and gives what comes back until the connection is closed.
-  /// `and_no_more`: nothing will follow, so that the server need not wait for the rest.
+  /// Sends raw bytes, and returns the answer up to the closing of the connection.
+  /// `and_no_more`: nothing will follow, so the server need not wait for the rest.
   std::string say(const std::string& bytes, bool and_no_more = false) const {
     const int socket = connect_to("127.0.0.1");
     if (socket < 0) return "no connection";
@@ -116,7 +116,7 @@ TEST_F(StudioServer, ServesItsPageAndItsModels) {
 }
 
 TEST_F(StudioServer, SendsCompressedPagesAsTheyAre) {
-  const std::string packed = "compressed elsewhere: " + std::string(5000, 'x');  // long enough to be worth compressing again
+  const std::string packed = "compressed elsewhere: " + std::string(5000, 'x');  // long enough that compressing it again would be worthwhile
   std::ofstream(folder_ / ".pages/index.html.br") << packed;
   const std::string answer = ask("GET /", "Accept-Encoding: gzip, br\r\n");
   EXPECT_EQ(status(answer), 200);

@@ -1,5 +1,5 @@
-// One function per verb: it declares the verb's options, and what to do when the verb is chosen. The verb's answer goes
-// to `exit_code`; errors leave as exceptions, which main() turns into messages and exit codes.
+// One function per verb: it declares the verb's options and what to do when the verb is chosen. The verb's result is
+// stored in `exit_code`; errors are exceptions, which main() turns into messages and exit codes.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,9 @@ void add_compare(CLI::App& app, int& exit_code);
 void add_life(CLI::App& app, int& exit_code);
 void add_stiffen(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
-/// Turns a picture into the bytes of a PNG file.
+/// Converts a picture to the bytes of a PNG file.
 using WritePng = std::function<std::string(const std::string& svg, double dots_per_inch)>;
-/// Without `write_png` the verb refuses PNG.
+/// Without `write_png` the verb rejects PNG.
 void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png);
 inline void add_plot(CLI::App& app, int& exit_code) { add_plot(app, exit_code, {}); }
 void add_solvers(CLI::App& app, int& exit_code);

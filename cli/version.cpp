@@ -1,4 +1,4 @@
-// pintle version: which program this is.
+// pintle version: identifies this program.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

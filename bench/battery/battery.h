@@ -1,4 +1,4 @@
-// The battery as a table: how many runs of each kind and tolerance kept their promises.
+// The battery as a table: the number of runs of each kind and tolerance that kept their promises.
 #pragma once
 
 #include <map>
@@ -17,14 +17,14 @@ struct BatteryTally {
   void add(const BatteryTally& other);
 };
 
-/// What is wrong with a run, in words; empty where nothing is. `badness` orders runs.
+/// The fault of a run, in words; empty if there is none. `badness` ranks runs.
 struct Fault {
   std::string what;
   double badness = 0;
 };
 Fault fault_of(const MeasuredRun& run);
 
-/// Runs of one mechanism at every tolerance that suits it: down to 1e-4 where bodies touch, else down to 1e-5, and 1e-6 for every fourth.
+/// Runs of one mechanism at every suitable tolerance: down to 1e-4 if bodies touch, else down to 1e-5, and 1e-6 for every fourth.
 std::vector<MeasuredRun> measure_mechanism(const RandomMechanism& mechanism, const TrueMotion& truth, int number, const BatteryLimits& limits);
 
 }  // namespace pintle::bench

@@ -1,4 +1,4 @@
-// Linkages some of whose joints have other laws than a spring and a damper.
+// Linkages in which some joints have laws other than a spring and a damper.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -21,7 +21,7 @@ void turn_stiffness(Dice& dice, JointText& joint) {
 
 void make_soft(Dice& dice, JointText& joint) {
   Keys& keys = joint.keys;
-  // Slots are not bushed, sliders not by rubber.
+  // Slots have no bushings, sliders no rubber bushings.
   constexpr std::array kLaws{"bushing", "maxwell", "table", "rubber-bushing"};
   const std::string word = kLaws[joint.type == "slot" ? dice.integer(1, 2) : dice.integer(0, guides(joint) ? 2 : 3)];
   keys["law"] = in_quotes(word);
@@ -85,7 +85,7 @@ void choose_contact_model(Dice& dice, Keys& keys, const std::string& prefix) {
   else keys[stop ? "stop_restitution" : "restitution"] = number_text(dice.uniform(0.3, 0.95));
 }
 
-// A slider that is loose in its guide too.
+// Gives a slider clearance in its guide as well.
 void loosen_guide(MechanismText& m, Dice& dice) {
   for (JointText& joint : m.joints) {
     if (!guides(joint)) continue;
@@ -137,7 +137,7 @@ MechanismText clearance(Dice& dice) {
   return m;
 }
 
-// A bar that swings down on an edge, or a loose block that falls on it.
+// A bar that swings down onto an edge, or a loose block that falls onto it.
 MechanismText contact(Dice& dice) {
   MechanismText m;
   const double radius = dice.uniform(0, 0.02), floor = -dice.uniform(0.05, 0.3);
@@ -214,7 +214,7 @@ MechanismText stops(Dice& dice) {
   return m;
 }
 
-// A table on two blades, a pendulum on a pivot or neck, a rod pinned to it.
+// A table on two blades, a pendulum on a flexure pivot or neck, a rod pinned to it.
 MechanismText flexures(Dice& dice) {
   MechanismText m;
   m.gravity = {0, dice.chance(0.3) ? 0 : -9.81};

@@ -23,14 +23,14 @@ MechanismText flexures(Dice& dice);
 MechanismText gears(Dice& dice);
 MechanismText backlash(Dice& dice);
 MechanismText ropes(Dice& dice);
-MechanismText rods(Dice& dice);          // massless, of fixed and of driven length
+MechanismText rods(Dice& dice);          // massless, of fixed or driven length
 MechanismText cams(Dice& dice);
-MechanismText surfaces(Dice& dice);      // cams, curved edges and teeth that rub
+MechanismText surfaces(Dice& dice);      // cams, curved edges and teeth with friction
 
 MechanismText belts(Dice& dice);
 MechanismText cylinders(Dice& dice);
 MechanismText detents(Dice& dice);
-MechanismText controlled(Dice& dice);    // motors and forces that read the motion
+MechanismText controlled(Dice& dice);    // motors and forces that depend on the motion
 
 MechanismText waiting(Dice& dice);       // at rest until something happens
 MechanismText relays(Dice& dice);        // bang-bang controllers

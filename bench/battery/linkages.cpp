@@ -8,15 +8,15 @@
 namespace pintle::bench {
 namespace {
 
-// To the millimetre, so that files are easy to read.
+// Rounds to the millimetre, so that files are easy to read.
 Point rounded(Point p) { return {1e-3 * std::round(1e3 * p.x), 1e-3 * std::round(1e3 * p.y)}; }
 
 Point random_point(Dice& dice, Point from, double least, double most) { return rounded(Polar{from, dice.uniform(least, most), dice.uniform(-kPi, kPi)}); }
 
-// Whether two bars that meet in `at` are well out of line.
+// Whether two bars that meet in `at` are far enough out of line.
 bool bent(Point a, Point at, Point b) { return std::abs(std::sin(direction(at, a) - direction(at, b))) > 0.2; }
 
-// Where the dyad B-C-D has its pin C. Where B and D nearly coincide, there is no such place.
+// A place for pin C of the dyad B-C-D. If B and D nearly coincide, there is none.
 Point dyad_pin(Dice& dice, Point B, Point D) {
   for (int i = 0; i < 1000; ++i) {
     const Point C = random_point(dice, B, 0.1, 0.5);
@@ -25,7 +25,7 @@ Point dyad_pin(Dice& dice, Point B, Point D) {
   throw NoSuchLinkage("no dyad between points that nearly coincide");
 }
 
-// Two bars that join `first` in B to `second` in D.
+// Two bars that connect `first` in B to `second` in D.
 void add_dyad(MechanismText& m, Dice& dice, const std::string& first, Point B, const std::string& second, Point D, const std::array<std::string, 2>& bars, const std::array<std::string, 3>& pins) {
   const Point C = dyad_pin(dice, B, D);
   add_bar(m, dice, bars[0], B, C);
@@ -129,7 +129,7 @@ MechanismText slider_crank(Dice& dice) {
   return m;
 }
 
-// The crank's end slides on a bar that swings about a pivot: by a slot, or by a block.
+// The crank's end slides along a bar that swings about a pivot, in a slot or with a block.
 MechanismText inverted_slider_crank(Dice& dice) {
   MechanismText m;
   const Point B = add_crank(m, dice, "crank", "A", {0, 0});

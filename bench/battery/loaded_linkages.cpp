@@ -1,4 +1,4 @@
-// Linkages where the force in the joints rules: redundant, pre-stressed, at their limit, through dead centres, toggles.
+// Linkages dominated by the joint forces: redundant, preloaded, at their limits, through dead centres, toggles.
 #include <cmath>
 
 #include "base/constants.h"
@@ -8,7 +8,7 @@
 namespace pintle::bench {
 namespace {
 
-// Equal cranks that carry one coupler: more of them than it needs.
+// Equal cranks that carry one coupler: more than it needs.
 MechanismText parallel_cranks(Dice& dice, int cranks, double misfit) {
   MechanismText m;
   const double length = 1e-2 * dice.integer(8, 30), angle = 0.1 * dice.integer(3, 28);
@@ -31,7 +31,7 @@ MechanismText parallel_cranks(Dice& dice, int cranks, double misfit) {
   return m;
 }
 
-// A slider-crank whose slider is guided twice.
+// A slider-crank whose slider has two guides.
 MechanismText two_guides(Dice& dice) {
   MechanismText m = slider_crank(dice);
   const BodyText& slider = m.body("slider");
@@ -41,7 +41,7 @@ MechanismText two_guides(Dice& dice) {
   return m;
 }
 
-// Bars between two posts that a spring pulls taut.
+// Bars between two posts, pulled taut by a spring.
 MechanismText taut_chain(Dice& dice) {
   MechanismText m;
   const int bars = dice.integer(2, 4);
@@ -60,7 +60,7 @@ MechanismText taut_chain(Dice& dice) {
   return m;
 }
 
-// A four-bar with a rod of a wrong length across it, so that nothing can move.
+// A four-bar braced by a rod of the wrong length, so that nothing can move.
 MechanismText braced_four_bar(Dice& dice) {
   MechanismText m = four_bar(dice);
   m.body("crank").spin = 0;
@@ -72,7 +72,7 @@ MechanismText braced_four_bar(Dice& dice) {
   return m;
 }
 
-// Lengths a, b, c of crank, coupler and rocker and g between the pivots, closed at the crank's angle.
+// Lengths a, b, c of crank, coupler and rocker, and g between the pivots, assembled at the given crank angle.
 bool closed_four_bar(MechanismText& m, Dice& dice, double a, double b, double c, double g, double angle) {
   const Point B = Polar{{0, 0}, a, angle}, D{g, 0};
   const double d = distance(B, D);
@@ -123,12 +123,12 @@ MechanismText locked(Dice& dice) {
   return m;
 }
 
-// A crank turned through the positions where all bars are in line, or through those of a slider-crank of equal lengths.
+// A crank turned through the positions in which all bars are collinear, or through those of a slider-crank of equal lengths.
 MechanismText dead_centres(Dice& dice) {
   MechanismText m;
   const double a = 1e-2 * dice.integer(8, 25), g = 1e-2 * dice.integer(26, 40);
   const int which = dice.integer(0, 2);
-  if (which == 2) {  // rod as long as the crank: the slider passes over the crank's pivot
+  if (which == 2) {  // rod as long as the crank: the slider passes the crank's pivot
     const double angle = dice.uniform(0.3, 1.2);
     const Point B = Polar{{0, 0}, a, angle}, C{2 * a * std::cos(angle), 0};
     add_bar(m, dice, "crank", {0, 0}, B);
@@ -151,7 +151,7 @@ MechanismText dead_centres(Dice& dice) {
   return m;
 }
 
-// A knee that is pushed straight against a stiff spring.
+// A toggle that is pushed straight against a stiff spring.
 MechanismText toggle(Dice& dice) {
   MechanismText m;
   const double a = dice.uniform(0.1, 0.3), b = dice.uniform(0.1, 0.3), bend = dice.log_uniform(0.02, 0.5);

@@ -1,4 +1,4 @@
-// Belts, cylinders, detents, and what reads the motion: controllers and walls.
+// Belts, cylinders, detents, and elements that depend on the motion: controllers and walls.
 #include <cmath>
 
 #include "base/constants.h"
@@ -18,7 +18,7 @@ void add_pulley(MechanismText& m, Dice& dice, const std::string& name, const std
 
 }  // namespace
 
-// Two pulleys and the runs between them, or a drum that lifts a load.
+// Two pulleys and the belt runs between them, or a drum that lifts a load.
 MechanismText belts(Dice& dice) {
   MechanismText m;
   choose_duration(m, dice, 0.3, 1.5);
@@ -62,7 +62,7 @@ MechanismText belts(Dice& dice) {
   return m;
 }
 
-// A boom on a cylinder, with a supply that swings or gas that is shut in.
+// A boom on a cylinder, with an oscillating supply or enclosed gas.
 MechanismText cylinders(Dice& dice) {
   MechanismText m;
   choose_duration(m, dice, 0.3, 1.5);
@@ -97,7 +97,7 @@ MechanismText cylinders(Dice& dice) {
   return m;
 }
 
-// A knob that a soft spring leads through its notches.
+// A knob that a soft spring drags through its notches.
 MechanismText detents(Dice& dice) {
   MechanismText m;
   m.gravity = {0, 0};
@@ -121,7 +121,7 @@ MechanismText detents(Dice& dice) {
   return m;
 }
 
-// A linkage whose crank a controller leads, and whose last bar a soft wall pushes back.
+// A linkage whose crank follows a controller, and whose last bar is pushed back by a soft wall.
 MechanismText controlled(Dice& dice) {
   MechanismText m = any_linkage(dice);
   choose_duration(m, dice);

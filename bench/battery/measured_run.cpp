@@ -13,10 +13,10 @@
 namespace pintle::bench {
 namespace {
 
-constexpr int kRows = 500;        // of a run, as without output_step
+constexpr int kRows = 500;        // rows of a run, as without output_step
 constexpr int kBetween = 8;       // rows of the truth per row of a run
 constexpr double kNegligible = 1e-4;  // theory/time Eq. (6.1)
-constexpr double kGoodTruth = 0.1;    // error of the truth over the tolerance of the run
+constexpr double kGoodTruth = 0.1;    // limit on the truth's error relative to the run's tolerance
 constexpr double kLeastRatio = 1.0 / 3, kLargestRatio = 30;
 
 Trajectory run_model(Model model, double tolerance, int rows, double limit) {
@@ -26,7 +26,7 @@ Trajectory run_model(Model model, double tolerance, int rows, double limit) {
   return simulate(model, [&clock, limit](const Progress&) { return clock.seconds() < limit; });
 }
 
-// Every so many rows.
+// Keeps every kBetween-th row.
 Trajectory thinned(const Trajectory& dense) {
   Trajectory out = dense;
   out.values.clear();
@@ -36,7 +36,7 @@ Trajectory thinned(const Trajectory& dense) {
   return out;
 }
 
-// How far a force lies from the cubic through the four rows after it.
+// Distance of a force from the cubic through the four rows after it.
 double off_cubic(const Trajectory& run, std::size_t row, const std::string& prefix) {
   double squares = 0;
   for (const char* component : {"fx[world]", "fy[world]"}) {
@@ -47,7 +47,7 @@ double off_cubic(const Trajectory& run, std::size_t row, const std::string& pref
   return std::sqrt(squares);
 }
 
-// A start whose forces are not those of the motion is wrong at every tolerance, so that no run at a smaller one shows it.
+// A start whose forces are not those of the motion is wrong at every tolerance, so a run at a smaller tolerance does not reveal it.
 void look_at_start(TrueMotion& truth) {
   constexpr double kSudden = 10, kSeen = 1e-3;
   if (truth.dense.n_rows() < 8) return;
@@ -64,7 +64,7 @@ void look_at_start(TrueMotion& truth) {
   }
 }
 
-// How far stated over true error is outside of what is honest; the true one is known to `doubt`.
+// By what factor the ratio of stated to true error is outside the honest range; the true error is uncertain by `doubt`.
 double dishonesty(const JointError& e, double doubt) {
   const double least = std::max(e.error - doubt, 1e-300), most = e.error + doubt;
   const double too_small = least * kLeastRatio / std::max(e.estimate, 1e-300), too_large = e.estimate / (kLargestRatio * std::max(most, 1e-300));
@@ -104,8 +104,8 @@ TrueMotion true_motion(const RandomMechanism& mechanism, const BatteryLimits& li
   return truth;
 }
 
-// Its rows are those that a user gets, and so are its stated errors; where a run with more rows makes the same steps, its forces
-// are compared in all of them.
+// The run has the rows that a user gets, and its stated errors are those that a user sees. If a run with more rows takes the same steps,
+// its forces are compared in all of those rows.
 MeasuredRun measured_run(const RandomMechanism& mechanism, const TrueMotion& truth, double tolerance, const BatteryLimits& limits) {
   MeasuredRun out;
   out.name = mechanism.name;

@@ -1,4 +1,4 @@
-// A random mechanism run at some tolerance, beside its truth: what the run promised and what it kept.
+// A random mechanism run at some tolerance and compared with its truth: what the run promised and whether it kept that.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace pintle::bench {
 
-/// A run at a tolerance that leaves nothing to be seen of its errors in the others.
+/// A run at a tolerance so tight that its errors are negligible in the comparison.
 struct TrueMotion {
   Model model;
   std::string refused;   // why the model could not be read or assembled
-  Trajectory dense;      // rows between those of the runs too
-  bool usable = false;   // it reached the end, or a horizon
+  Trajectory dense;      // with additional rows between those of the runs
+  bool usable = false;   // it reached the end or a horizon
   double error = 0;      // its largest stated error [-]
-  std::string jump;      // the joint whose force in the first row does not continue in the next ones
-  double jump_size = 0;  // over its peak [-]
+  std::string jump;      // the joint whose force in the first row does not fit the following rows
+  double jump_size = 0;  // relative to its peak [-]
 };
 
 struct BatteryLimits {
@@ -38,13 +38,13 @@ struct MeasuredRun {
   std::string message;
   std::uint64_t steps = 0, passes = 0;
   double seconds = 0;               // processor time
-  bool judged = false;              // its truth is good enough
+  bool judged = false;              // its truth is accurate enough
   JointError worst;                 // of the joints, the one with the largest error
   double doubt = 0;                 // error of the truth for that joint [-]
-  double dishonesty = 1;            // how far stated over true error of that joint is outside of 1/3 to 30 [-]
+  double dishonesty = 1;            // factor by which stated over true error of that joint is outside 1/3 to 30 [-]
   int joints = 0, honest_joints = 0;
   bool over() const { return judged && worst.error - doubt > tolerance; }
-  /// Its outcome says that the forces are right, to the tolerance or up to a time, and they are not.
+  /// Its outcome claims that the forces are right, to the tolerance or up to a time, but they are not.
   bool broke_its_promise() const;
   bool states_too_little() const { return judged && dishonesty > 1 && worst.ratio() < 1; }
   bool states_too_much() const { return judged && dishonesty > 1 && worst.ratio() > 1; }

@@ -12,7 +12,7 @@ double distance(Point a, Point b) { return std::hypot(b.x - a.x, b.y - a.y); }
 double direction(Point from, Point to) { return std::atan2(to.y - from.y, to.x - from.x); }
 Point middle(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
 
-// Twelve digits: the same text on every machine, whatever the last bits of its cosine, and loops that close to rounding.
+// Twelve digits: the text is the same on every machine, whatever the last bits of its cosine, and loops close to roundoff.
 std::string number_text(double x) { return fmt::format("{:.12g}", x == 0 ? 0.0 : x); }
 std::string in_quotes(const std::string& words) { return '"' + words + '"'; }
 

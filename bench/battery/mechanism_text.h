@@ -1,4 +1,4 @@
-// A mechanism in the making, drawn in its start position in world axes, and the model file that it becomes.
+// A mechanism under construction, described in its start position in world axes, and the model file made from it.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,17 +16,17 @@ struct Point {
 };
 double distance(Point a, Point b);
 double direction(Point from, Point to);  // [rad]
-/// At a distance and in a direction. Used with braces, which draw random arguments in their order.
+/// The point at a distance in a direction. Used with braces, so that random arguments are drawn in their order.
 struct Polar : Point {
   Polar(Point from, double length, double angle) : Point{from.x + length * std::cos(angle), from.y + length * std::sin(angle)} {}
 };
 Point middle(Point a, Point b, double share = 0.5);
 
-/// Values as they stand in a model file.
+/// Values as written in a model file.
 using Keys = std::map<std::string, std::string>;
 std::string number_text(double x);
 std::string in_quotes(const std::string& words);
-/// As fmt::format makes it. Used with braces, which draw random arguments in their order.
+/// The result of fmt::format. Used with braces, so that random arguments are drawn in their order.
 struct Text : std::string {
   template <class... Values>
   Text(fmt::format_string<const Values&...> pattern, const Values&... values) : std::string(fmt::format(pattern, values...)) {}
@@ -38,25 +38,25 @@ struct BodyText {
   double angle = 0, mass = 1, inertia = 1;
   std::optional<double> spin{};
   std::optional<Point> velocity{};
-  bool held = false;  // its angle and spin are the start's; assembly finds the others
+  bool held = false;  // its angle and spin are those of the start; assembly finds the others
   std::vector<std::pair<std::string, std::string>> markers{};
 };
 
 struct JointText {
   std::string name, type, first, second;
   Keys keys{};
-  double length = 0;  // by which angular stiffness is scaled [m]
+  double length = 0;  // scale for the angular stiffness [m]
 };
 
 class MechanismText {
  public:
-  /// `axis` is in world axes [rad]. Give "body.marker".
+  /// `axis` is in world axes [rad]. Both return "body.marker".
   std::string on_ground(Point at, double axis = 0);
   std::string on(const std::string& body, Point at, double axis = 0);
 
   BodyText& add_body(const std::string& name, Point centre, double angle, double mass, double inertia);
   JointText& add_joint(const std::string& name, const std::string& type, const std::string& first, const std::string& second);
-  JointText& add_pin(const std::string& name, const std::string& first_body, const std::string& second_body, Point at);  // "ground" too
+  JointText& add_pin(const std::string& name, const std::string& first_body, const std::string& second_body, Point at);  // also "ground"
   /// "spring.s1", "motor.drive" ..
   void add(const std::string& table, Keys keys) { others_.emplace_back(table, std::move(keys)); }
   bool has(const std::string& table) const;
@@ -67,8 +67,8 @@ class MechanismText {
   std::vector<JointText> joints;
   Point gravity{0, -9.81};
   double duration = 1;  // [s]
-  std::string start;    // simulate.start; empty: the usual one
-  double weight = 0;    // largest moment that gravity could have: the scale of loads [N*m]
+  std::string start;    // simulate.start; empty: the default
+  double weight = 0;    // largest possible moment of gravity: the scale of loads [N*m]
 
   std::string text(const std::string& title) const;
 

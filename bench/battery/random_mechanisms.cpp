@@ -71,7 +71,7 @@ RandomMechanism random_mechanism(std::uint64_t seed, int number, const std::vect
   for (;;) {
     try {
       return {name, &*kind, kind->make(dice).text(name)};
-    } catch (const NoSuchLinkage&) {  // the dice go on to another one
+    } catch (const NoSuchLinkage&) {  // the next numbers are tried
     }
   }
 }

@@ -1,4 +1,4 @@
-// The battery: mechanisms of many kinds with random sizes, joints and loads. A model is a function of seed and number.
+// The battery: mechanisms of many kinds with random dimensions, joints and loads. A model is a function of seed and number.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct RandomMechanism {
   std::string text;  // of the model file
 };
 
-/// The kinds take turns; `kinds` are those that do, empty for all.
+/// The kinds are used in turn; `kinds` selects some, empty for all.
 RandomMechanism random_mechanism(std::uint64_t seed, int number, const std::vector<std::string>& kinds = {});
 
 }  // namespace pintle::bench

@@ -1,4 +1,4 @@
-// Curved surfaces and teeth that rub: followers on cams, wheels and skids on edges, gears.
+// Curved surfaces and teeth with friction: followers on cams, wheels and skids on edges, gears.
 #include <array>
 #include <cmath>
 
@@ -56,7 +56,7 @@ MechanismText wheel(Dice& dice) {
   return m;
 }
 
-// A cam whose follower is dragged along by it.
+// A cam that drags its follower along.
 MechanismText dragged_follower(Dice& dice) {
   MechanismText m = cams(dice);
   Keys& keys = m.joint("cam").keys;

@@ -1,4 +1,4 @@
-// What rests until something happens, and what switches without rest.
+// Mechanisms at rest until something happens, and controllers that switch all the time.
 #include <array>
 
 #include "bench/battery/kinds.h"
@@ -7,7 +7,7 @@
 namespace pintle::bench {
 namespace {
 
-// Holds the bar where it is: by a pin that sticks, or by a stop that it lies on.
+// Holds the bar in place: by a pin that sticks, or by a stop that it rests on.
 void hold_still(MechanismText& m, Dice& dice, double angle) {
   Keys& keys = m.joint("A").keys;
   if (dice.chance(0.3)) {
@@ -27,7 +27,7 @@ void hold_still(MechanismText& m, Dice& dice, double angle) {
 
 }  // namespace
 
-// A bar at rest, until the cord at its tip is wound in far enough, or a force has grown.
+// A bar at rest until the cord at its tip has been wound in far enough or a force has grown.
 MechanismText waiting(Dice& dice) {
   MechanismText m;
   choose_duration(m, dice, 0.5, 3);
@@ -39,7 +39,7 @@ MechanismText waiting(Dice& dice) {
   if (m.start != "settled") bar.spin = 0;
   m.add_pin("A", "ground", "crank", {0, 0});
   hold_still(m, dice, angle);
-  const double comes = m.duration * dice.uniform(0.1, 0.6);  // when, about
+  const double comes = m.duration * dice.uniform(0.1, 0.6);  // approximate time
   if (dice.chance(0.6)) {
     const Point winch{tip.x + dice.uniform(-0.2, 0.2), tip.y + dice.uniform(0.2, 0.5)};
     JointText& cord = m.add_joint("cord", "rope", m.on_ground(winch), m.on("crank", tip));
@@ -56,7 +56,7 @@ MechanismText waiting(Dice& dice) {
   return m;
 }
 
-// A crank that a bang-bang controller leads.
+// A crank with a bang-bang controller.
 MechanismText relays(Dice& dice) {
   MechanismText m = dice.chance(0.5) ? open_chain(dice, 2) : one_loop(dice);
   choose_duration(m, dice, 0.2, 0.8);

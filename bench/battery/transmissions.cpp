@@ -15,7 +15,7 @@ void add_wheel(MechanismText& m, Dice& dice, const std::string& name, Point cent
   m.add_pin(name == "crank" ? "A" : "O_" + name, "ground", name, centre);
 }
 
-// Wheels in a row, driven by a torque, braked by a spring; a rack or a bar at the end.
+// Wheels in a row, driven by a torque and braked by a spring; with a rack or a bar at the end.
 MechanismText gear_row(Dice& dice, bool with_play) {
   MechanismText m;
   double radius = 1e-3 * dice.integer(15, 50), x = 0;
@@ -81,7 +81,7 @@ MechanismText backlash(Dice& dice) {
   return m;
 }
 
-// A load on a rope, on ropes in a row, or a bar that a slack rope catches.
+// A load on a rope or on ropes in series, or a bar caught by a slack rope.
 MechanismText ropes(Dice& dice) {
   MechanismText m;
   const auto rope = [&](const std::string& name, const std::string& first, const std::string& second, double length) {
@@ -113,7 +113,7 @@ MechanismText ropes(Dice& dice) {
   return m;
 }
 
-// A crank and a rocker with a massless rod between them, a rod that hangs, or an actuator.
+// A crank and a rocker connected by a massless rod, a hanging rod, or an actuator.
 MechanismText rods(Dice& dice) {
   MechanismText m;
   choose_duration(m, dice);

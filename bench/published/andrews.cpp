@@ -21,7 +21,7 @@ Model andrews(double k, const std::vector<std::string>& overrides = {}) {
   return model;
 }
 
-// Largest difference of any joint's force from the table, over that joint's peak there; `from` skips rows.
+// Largest difference of any joint's force from the table, relative to that joint's peak there; `from` skips rows.
 double force_error(const Trajectory& r, const Model& model, const nlohmann::json& forces) {
   double worst = 0;
   for (std::size_t j = 0; j < forces["joints"].size(); ++j) {
@@ -86,7 +86,7 @@ std::string component_page(const nlohmann::json& facts, const Components& y, con
   return page;
 }
 
-// The same with Lagrange multipliers.
+// The same measures with Lagrange multipliers.
 void measure_ideal(Report& report, const nlohmann::json& facts) {
   Model model = andrews(1e12, {"simulate.output_step=0.0025"});
   model.simulate.tolerance = 1e-7;

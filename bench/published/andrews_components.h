@@ -13,12 +13,12 @@
 
 namespace pintle::published {
 
-/// A quarter of critical for the lightest body, as in the file of the collection at 1e8 N/m [N*s/m].
+/// A quarter of critical damping for the lightest body, as in the collection's file at 1e8 N/m [N*s/m].
 inline double damping_at(double k) {
   return 300 * std::sqrt(k / 1e8);
 }
 
-/// Of a state of mechanisms/andrews.toml.
+/// The components of a state of mechanisms/andrews.toml.
 using Components = std::array<double, 27>;
 inline Components components(const System& system, const State& s) {
   Components out{};
@@ -42,7 +42,7 @@ inline Components components(const System& system, const State& s) {
   return out;
 }
 
-/// At the end of the model's duration.
+/// Results at the end of the model's duration.
 struct End {
   Components y{};
   std::uint64_t steps = 0;
@@ -62,7 +62,7 @@ inline End end_of(const Model& model, double tolerance) {
   return {components(system, stepper->state()), stepper->counters().steps};
 }
 
-/// The error of compliance goes as 1/k: from two stiffnesses, the second ten times the first.
+/// The error of compliance is proportional to 1/k: extrapolates from two stiffnesses, the second ten times the first.
 inline Components extrapolated(const Components& soft, const Components& stiff) {
   Components out{};
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = (10 * stiff[i] - soft[i]) / 9;

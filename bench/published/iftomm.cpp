@@ -9,7 +9,7 @@
 namespace pintle::published {
 namespace {
 
-// Bearings of stiffness k, or a way to keep what has stiffness as a constraint.
+// Bearings of stiffness k, or a way to enforce the joints that have stiffness as constraints.
 struct Joints {
   double k = 1e12;
   Equations equations = Equations::kNewtonian;
@@ -19,9 +19,9 @@ struct Joints {
 constexpr Joints kStiffest{}, kIdeal{1e12, Equations::kIdeal}, kPenalty{1e12, Equations::kPenalty}, kTrapezoidal{1e12, Equations::kAugmentedLagrangian, "ode23t"},
     kHht{1e12, Equations::kAugmentedLagrangian, "hht"}, kTree{1e12, Equations::kRelativeAugmented, "ode23t"};
 
-constexpr double kPendulumStep = 0.5e-3, kLoopsStep = 1e-3;  // of the augmented Lagrangian, which its authors use with steps of one length [s]
+constexpr double kPendulumStep = 0.5e-3, kLoopsStep = 1e-3;  // of the augmented Lagrangian, which its authors use with steps of equal length [s]
 constexpr double kAugmentedTolerance = 1e-2;                     // with such steps
-constexpr double kA02Frequency = 500;        // of the penalty, at which it keeps the branch: theory/penalty section 4 [rad/s]
+constexpr double kA02Frequency = 500;        // of the penalty, at which it stays on the branch: theory/penalty section 4 [rad/s]
 
 void set_equations(const Joints& joints, double step, Model& model) {
   model.simulate.equations = joints.equations;

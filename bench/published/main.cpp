@@ -1,4 +1,4 @@
-// pintle-published: published benchmark problems, each measured as its source measures.
+// pintle-published: published benchmark problems, each measured as in its source.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

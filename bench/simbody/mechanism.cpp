@@ -16,7 +16,7 @@ SimTK::Transform transform(const Three& frame) {
   return SimTK::Transform(SimTK::Rotation(frame[2], SimTK::ZAxis), Vec3(frame[0], frame[1], 0));
 }
 
-// Gravity is left to Simbody.
+// Forces other than gravity, which is left to Simbody.
 class Loads : public SimTK::Force::Custom::Implementation {
  public:
   Loads(const Mechanism& from, const std::vector<MobilizedBody>& bodies) : from_(from), bodies_(bodies) {}
@@ -139,7 +139,7 @@ class Model {
   SimTK::SimbodyMatterSubsystem matter_;
   SimTK::GeneralForceSubsystem forces_;
   std::vector<MobilizedBody> bodies_;
-  std::vector<SimTK::Constraint> planes_;  // two for each loop
+  std::vector<SimTK::Constraint> planes_;  // two per loop
 };
 
 std::unique_ptr<SimTK::Integrator> make_integrator(bool bdf, const SimTK::MultibodySystem& system) {
@@ -147,7 +147,7 @@ std::unique_ptr<SimTK::Integrator> make_integrator(bool bdf, const SimTK::Multib
   return std::make_unique<SimTK::RungeKuttaMersonIntegrator>(system);
 }
 
-constexpr int kLook = 5000;  // steps between two looks at the clock
+constexpr int kLook = 5000;  // steps between two readings of the clock
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // A planar mechanism as plain numbers, and its integration by Simbody. Simbody's headers do not compile as C++20, nor Pintle's as
-// C++17, and Simbody brings an old copy of SUNDIALS under the names of the new: so this is a module of its own, which
-// is loaded so that it sees its own libraries first.
+// C++17, and Simbody contains an old copy of SUNDIALS under the same names as the new one: so this is a separate module,
+// loaded in such a way that it finds its own libraries first.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace pintle::bench::simbody {
 
-using Three = std::array<double, 3>;  // x, y, angle, or what goes with them
+using Three = std::array<double, 3>;  // x, y, angle, or the corresponding components
 
 struct Joint {
   int a = -1, b = -1;     // bodies, -1: the ground
@@ -38,7 +38,7 @@ struct Mechanism {
   std::function<void(double t, const std::vector<Three>& q, const std::vector<Three>& v, std::vector<Three>& Q)> loads;
 };
 
-/// What is passed at an output time: positions and velocities of free bodies, or forces on the joints' second bodies (fx, fy, 0)
+/// Passed at an output time: positions and velocities of free bodies, or forces on the joints' second bodies (fx, fy, 0)
 /// and the point.
 struct Output {
   double t = 0;
@@ -60,9 +60,9 @@ struct Result {
 };
 
 extern "C" {
-/// `begin` is called when the model is made and the integration begins.
+/// `begin` is called when the model is complete and the integration begins.
 void pintle_simbody_integrate(const Mechanism& mechanism, const Plan& plan, const std::function<void()>& begin, Result& result);
-/// Room for "major.minor.build".
+/// Sets `out` to "major.minor.build".
 void pintle_simbody_version(std::string& out);
 }
 

@@ -1,4 +1,4 @@
-// pintle-sweep: the program with the one verb sweep.
+// pintle-sweep: the program with only the verb sweep.
 #include "cli/ensembles/sweep.h"
 #include "cli/program.h"
 

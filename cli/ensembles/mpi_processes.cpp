@@ -16,7 +16,7 @@
 namespace pintle::cli {
 namespace {
 
-// A process asks with what it has finished (frames, perhaps none) after the number of chunks it can take; the answer is a list of
+// A process sends the number of chunks it can take, followed by its finished results (frames, possibly none); the answer is a list of
 // chunks. An empty list means that nothing is left.
 constexpr int kAsk = 1, kAnswer = 2;
 constexpr std::uint64_t kChunksPerThread = 2;
@@ -135,7 +135,7 @@ void MpiProcesses::work(const SweepRequest& request, int threads) const {
   std::optional<SweepJob> job;
   try {
     job.emplace(request);
-  } catch (const InputError&) {  // the first one has found the same, and says so
+  } catch (const InputError&) {  // the first process has found the same and reports it
   }
   std::string message(sizeof(std::uint64_t), '\0');
   while (true) {

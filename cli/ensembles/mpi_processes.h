@@ -1,4 +1,4 @@
-// The processes that mpirun or srun have started: the first writes and computes, the others compute.
+// The processes started by mpirun or srun: the first writes and computes, the others compute.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace pintle::cli {
 
-/// Whether this process is one of several, by what their starter has put into the environment.
+/// Whether this process is one of several, judged by environment variables set by the launcher.
 bool started_by_mpi();
 
 class MpiProcesses : public Remote {
@@ -22,18 +22,18 @@ class MpiProcesses : public Remote {
   ~MpiProcesses() override;
 
   bool is_first() const { return rank_ == 0; }
-  /// The first one's model text for all. Whatever else they have from the command line is the same by nature.
+  /// Copies the first process's model text to all. Everything else on the command line is the same for all of them anyway.
   void share(std::string& text) const;
   void share(std::map<std::string, std::string>& texts) const;
-  /// Ends all of them at once, after an error.
+  /// Ends all processes at once, after an error.
   [[noreturn]] void abort(int exit_code) const;
 
   std::vector<FinishedChunk> serve(ChunkQueue& queue) override;
   bool busy() const override { return dismissed_ < size_ - 1; }
-  /// Tells all who do not know it yet that nothing is left, and waits until they do.
+  /// Tells all processes that do not know it yet that nothing is left, and waits until they do.
   void dismiss();
 
-  /// What all but the first do: computes what the first gives out, until nothing is left.
+  /// The work of all processes but the first: computes what the first hands out, until nothing is left.
   void work(const SweepRequest& request, int threads) const;
 
  private:

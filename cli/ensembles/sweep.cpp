@@ -47,7 +47,7 @@ struct SweepOptions : ModelOptions {
   bool quiet = false, json = false;
 };
 
-/// What decides the results, as a command; not how the work is spread, nor where they go.
+/// The options that determine the results, as a command; without how the work is distributed or where the results go.
 std::string command_of(const SweepOptions& options) {
   const SweepRequest& r = options.request;
   std::string text = "pintle sweep " + shell_word(options.model);
@@ -70,7 +70,7 @@ void read_texts(SweepOptions& options) {
 
 #ifdef PINTLE_MPI
 
-// On the first process; the others compute for it and give nothing.
+// Returns the outcome on the first process; the others compute for it and return nothing.
 std::optional<SweepOutcome> run_on_all(SweepOptions& options, const SweepObserver& observer) {
   MpiProcesses processes;
   if (processes.is_first()) read_texts(options);

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Samples per second of this start; 0 while unknown.
+/// Samples per second since this start; 0 while unknown.
 double rate(const SweepProgress& progress) {
   return progress.wall_seconds > 0 ? static_cast<double>(progress.done - progress.resumed) / progress.wall_seconds : 0;
 }

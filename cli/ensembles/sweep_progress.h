@@ -1,4 +1,4 @@
-// How far a sweep has come, on standard error.
+// The progress of a sweep, on standard error.
 #pragma once
 
 #include <filesystem>

@@ -28,7 +28,7 @@ std::vector<std::string> command(const fs::path& film, FilmForm form, int width,
   std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "bgr0", "-video_size",
                                  fmt::format("{}x{}", width, height), "-framerate", rate, "-i", "pipe:0", "-an"};
   const auto add = [&words](std::initializer_list<const char*> more) { words.insert(words.end(), more.begin(), more.end()); };
-  // A palette of the film's own; flat colours need no dither. From all frames it would have to keep all of them until the end.
+  // A palette made for the film; flat colours need no dithering. A palette from all frames would require storing them all until the end.
   const std::string palette = fmt::format("split[a][b];[a]trim=end_frame={0},palettegen=stats_mode=full[p];[b]trim=start_frame={0},setpts=PTS-STARTPTS[c];"
                                           "[c][p]paletteuse=dither=none:diff_mode=rectangle", n_samples);
   if (form == FilmForm::kGif)
@@ -55,7 +55,7 @@ FilmEncoder::~FilmEncoder() {
 }
 
 void FilmEncoder::start(const std::vector<std::string>& words) {
-  ::signal(SIGPIPE, SIG_IGN);  // an encoder that ends early is a failed write, not the end of this program
+  ::signal(SIGPIPE, SIG_IGN);  // an encoder that ends early then causes a failed write instead of killing this program
   int pipe_ends[2];
   if (::pipe2(pipe_ends, O_CLOEXEC) != 0) throw file_error(file_.target(), "write", errno);
   std::FILE* complaints = std::tmpfile();
@@ -67,7 +67,7 @@ void FilmEncoder::start(const std::vector<std::string>& words) {
   if (complaints_ >= 0) posix_spawn_file_actions_adddup2(&actions, complaints_, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C reaches this program alone, which then ends the encoder
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C reaches only this program, which then ends the encoder
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -119,7 +119,7 @@ void FilmEncoder::add(const Pixels& frame) {
 bool FilmEncoder::finish() {
   ::close(frames_);
   frames_ = -1;
-  siginfo_t ended{};  // waited for in short spells, so that Ctrl-C is heard
+  siginfo_t ended{};  // polled at short intervals, so that Ctrl-C is noticed
   while (::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0) {
     if (interrupted()) return false;
     ::usleep(20'000);

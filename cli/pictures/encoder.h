@@ -1,4 +1,4 @@
-// A film from frames, by the program ffmpeg.
+// Makes a film from frames with the program ffmpeg.
 #pragma once
 
 #include <sys/types.h>
@@ -13,11 +13,11 @@ namespace pintle::cli {
 
 enum class FilmForm { kGif, kWebm };
 
-/// Frames go through a pipe into ffmpeg, which writes beside the film; finish() renames. Destroyed before that, it leaves
-/// no trace.
+/// Frames are piped to ffmpeg, which writes to a temporary file; finish() renames it. If destroyed before that, it
+/// leaves no trace.
 class FilmEncoder {
  public:
-  /// The first `n_samples` frames only show the colours, for a GIF's palette. Throws FileError where there is no ffmpeg.
+  /// The first `n_samples` frames only supply colours for a GIF's palette. Throws FileError if there is no ffmpeg.
   FilmEncoder(const std::filesystem::path& film, FilmForm form, int width, int height, double frames_per_second, int n_samples);
   FilmEncoder(const FilmEncoder&) = delete;
   FilmEncoder& operator=(const FilmEncoder&) = delete;
@@ -30,7 +30,7 @@ class FilmEncoder {
  private:
   void start(const std::vector<std::string>& words);
   [[noreturn]] void fail();
-  bool wait();  ///< true: ffmpeg ended well
+  bool wait();  ///< true: ffmpeg succeeded
 
   Replacement file_;
   pid_t process_ = -1;

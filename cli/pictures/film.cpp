@@ -60,8 +60,8 @@ double usual_speed(double span) {
   return span >= 3 && span <= 20 ? 1 : round_step(span / 8);
 }
 
-constexpr int kColourSamples = 12;    // frames that the palette of a GIF is made of
-constexpr double kMostGifRate = 50;   // its frames last whole hundredths of a second, and browsers take 1 for 10
+constexpr int kColourSamples = 12;    // number of frames that the palette of a GIF is made from
+constexpr double kMostGifRate = 50;   // a GIF's frames last whole hundredths of a second, and browsers take 1 for 10
 
 class FilmMaker {
  public:
@@ -130,7 +130,7 @@ class FilmMaker {
     return still_svg(scene_, instant_at(scene_, trajectory_, t), look, traces_);
   }
 
-  /// Without a last odd row or column, which half-sized colour planes cannot have.
+  /// Removes an odd last row or column, which half-size colour planes cannot have.
   static Pixels even(Pixels pixels) {
     if (pixels.width % 2 == 0 && pixels.height % 2 == 0) return pixels;
     Pixels cut{pixels.width & ~1, pixels.height & ~1, {}};

@@ -14,7 +14,7 @@ void add_plot_with_png(CLI::App& app, int& exit_code) {
 }  // namespace
 
 #ifdef PINTLE_SANITIZED
-// Fontconfig, below librsvg, keeps what it has read of the fonts until the program ends.
+// Fontconfig, which librsvg uses, keeps its font data until the program ends.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer asks for this name
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
 #endif

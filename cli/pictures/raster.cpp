@@ -62,7 +62,7 @@ std::string big_endian(std::uint32_t x) {
   return bytes;
 }
 
-/// The check sum of a PNG chunk: ISO 3309, polynomial 0xedb88320.
+/// The checksum of a PNG chunk: ISO 3309, polynomial 0xedb88320.
 std::uint32_t check_sum(std::string_view bytes) {
   std::uint32_t sum = 0xffffffff;
   for (const char c : bytes) {
@@ -72,7 +72,7 @@ std::uint32_t check_sum(std::string_view bytes) {
   return ~sum;
 }
 
-/// Dots to the metre, as the chunk that stands after the head of a PNG file.
+/// The chunk with the pixels per metre, which follows the header of a PNG file.
 std::string density_chunk(double dots_per_inch) {
   constexpr double kInch = 0.0254;  // [m]
   const std::string density = big_endian(static_cast<std::uint32_t>(std::lround(dots_per_inch / kInch)));
@@ -96,7 +96,7 @@ Pixels pixels_of(const std::string& svg, double scale) {
 }
 
 std::string png_of(const std::string& svg, double dots_per_inch) {
-  constexpr std::size_t kAfterHead = 8 + 25;  // signature and the chunk IHDR
+  constexpr std::size_t kAfterHead = 8 + 25;  // after the signature and the chunk IHDR
   const auto surface = paint(svg, dots_per_inch / 96);
   std::string png;
   if (const auto status = cairo_surface_write_to_png_stream(surface.get(), append, &png)) fail(cairo_status_to_string(status));

@@ -1,4 +1,4 @@
-// pintle-studio: the program with the one verb studio.
+// pintle-studio: the program with only the verb studio.
 #include "cli/program.h"
 #include "cli/studio/studio.h"
 

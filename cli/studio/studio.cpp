@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kUsualPort = 7463;
-constexpr int kMorePorts = 9;  // tried after it: what a browser keeps for a page goes by its port
+constexpr int kMorePorts = 9;  // tried after the given one, since browsers store a page's data by its port
 constexpr const char* kFooter =
     "Examples:\n"
     "  pintle studio\n"
@@ -39,7 +39,7 @@ struct StudioOptions {
   bool no_browser = false;
 };
 
-/// The built pages: those given, or installed beside this program, or where make studio builds them.
+/// The built pages: those given, or those installed with this program, or those that make studio has built.
 fs::path find_pages(const std::string& given) {
   std::error_code error;
   if (!given.empty()) {
@@ -62,7 +62,7 @@ std::string model_below(const fs::path& folder, const std::string& model) {
   return path.generic_string();
 }
 
-/// Asks the desktop to show `address`; nothing happens where there is none.
+/// Asks the desktop to open `address`; does nothing if there is no desktop.
 void show(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   const pid_t child = fork();

@@ -17,9 +17,9 @@ namespace {
 
 constexpr const char* kAddress = "127.0.0.1";
 constexpr std::size_t kLargestBody = std::size_t{96} << 20U;  // the largest model, as JSON text
-constexpr int kPatience = 5;                                  // of a connection that says nothing [s]
+constexpr int kPatience = 5;                                  // timeout of a silent connection [s]
 
-// The library compresses the text that it sends, unless it is asked for it in parts.
+// The library compresses the text it sends, unless the client requests only part of it.
 void set_compressed(std::string body, const char* type, httplib::Response& to) {
   const auto kept = std::make_shared<const std::string>(std::move(body));
   to.set_content_provider(kept->size(), type, [kept](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
@@ -73,10 +73,10 @@ void WebServer::serve(studio::RequestRouter& router, const std::function<bool()>
     if (to.has_header("Content-Encoding")) set_compressed(std::move(reply.body), reply.type.c_str(), to);
     else to.set_content(std::move(reply.body), reply.type.c_str());
   };
-  // [^] rather than a dot: a dot leaves out line ends.
+  // [\s\S] instead of a dot, which does not match line endings.
   constexpr const char* kAnything = R"([\s\S]*)";
   server.Get(kAnything, answer).Post(kAnything, answer).Put(kAnything, answer).Delete(kAnything, answer).Patch(kAnything, answer).Options(kAnything, answer);
-  // A server that does not run yet cannot be stopped.
+  // A server that is not running yet cannot be stopped.
   std::atomic<bool> ended = false;
   std::thread watch([&] {
     while (goes_on() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(100));

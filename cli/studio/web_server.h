@@ -1,4 +1,4 @@
-// The sockets of the studio's server. On this machine only: 127.0.0.1.
+// The sockets of the studio's server. Reachable from this machine only: 127.0.0.1.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@ namespace pintle::cli {
 
 class WebServer {
  public:
-  /// Listens at `port`, where that is taken at one of the `more` after it, or (also for 0) at any free one. Throws FileError when there is none.
+  /// Listens at `port`; if that is taken, at one of the `more` ports after it; else (and for 0) at any free one. Throws FileError if there is none.
   WebServer(int port, int more);
   ~WebServer();
   int port() const { return port_; }
 
-  /// Answers until `goes_on` says no; it is asked about ten times a second.
+  /// Answers requests until `goes_on` returns false; it is called about ten times a second.
   void serve(studio::RequestRouter& router, const std::function<bool()>& goes_on);
 
  private:

@@ -19,8 +19,8 @@ class Complaints {
 
   void add(Spot spot, std::string path, std::string found, std::string because, std::string suggestion = {});
 
-  /// The candidate nearest to `word`, or "" if none is near. Big models with many mistakes get this for the first ones
-  /// only: each costs a look at every candidate.
+  /// The candidate nearest to `word`, or "" if none is near. In big models with many mistakes only the first ones get
+  /// this: each search compares the word with every candidate.
   std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
   /// The nearest candidate as a question, or a list of them.

@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-constexpr std::size_t kSmall = 8;          // tables up to this size are searched by walking
+constexpr std::size_t kSmall = 8;          // tables up to this size are searched linearly
 constexpr std::size_t kLongestLine = 300;  // longer lines are not quoted in complaints [bytes]
 
 bool is_json(std::string_view text, std::string_view file_name) {
@@ -31,7 +31,7 @@ Complaint whole_file_complaint(std::string_view file_name, std::string found, st
   return complaint;
 }
 
-// Walks the source of a string's value byte by byte of the value.
+// Steps through the source of a string, byte by byte of its value.
 class StringWalk {
  public:
   StringWalk(std::string_view raw, std::size_t start, Spot spot) : raw_(raw), at_(start), spot_(spot) {
@@ -47,7 +47,7 @@ class StringWalk {
   }
 
  private:
-  // The text of ''' blocks starts on the line after the quotes.
+  // The text of a ''' block starts on the line after the quotes.
   bool starts_literal_block() const {
     std::size_t back = at_;
     while (back > 0 && (raw_[back - 1] == '\n' || raw_[back - 1] == '\r')) --back;
@@ -69,7 +69,7 @@ class StringWalk {
     return 1;
   }
 
-  // Returns how many bytes of value the escape stands for.
+  // Returns how many bytes of the value the escape stands for.
   std::size_t skip_escape() {
     step();
     if (at_ >= raw_.size()) return 0;

@@ -76,31 +76,31 @@ struct Source {
 struct Document {
   std::vector<Source> sources;
   Node root;  // a table
-  std::vector<std::string> notes;  // what changes from the command line kept and left out
+  std::vector<std::string> notes;  // what changes on the command line have kept and left out
 
   Place place(Spot spot) const;
-  /// The spot of byte `offset` of a string's value, as it is written (escapes, several lines) in the source.
+  /// The spot in the source of byte `offset` of a string's value, allowing for escapes and multi-line strings.
   Spot inside(const Node& string, std::size_t offset) const;
   Complaint complaint(Spot spot, std::string path, std::string found, std::string because,
                       std::string suggestion = {}) const;
 };
 
-/// Deepest nesting of tables and arrays that is read.
+/// Greatest depth of nested tables and arrays that is accepted.
 inline constexpr int kMaxDepth = 64;
-/// Largest file that is read [bytes].
+/// Largest file that is accepted [bytes].
 inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20U;
 
 /// Throws InputError if `text` is too large, empty or not UTF-8.
 void check_text(std::string_view text, std::string_view file_name);
 
-/// Reads TOML or JSON: by the ending of `file_name`, else by the first character. Throws InputError.
+/// Reads TOML or JSON, chosen by the extension of `file_name`, else by the first character. Throws InputError.
 Document parse_document(std::string_view text, std::string_view file_name);
 Document parse_toml(std::string_view text, std::string_view file_name);
-/// The same of a text that is part of the program: what makes the parser dangerous to strangers' texts is not looked for.
+/// The same for text that is part of the program: it skips the guard that protects the parser from untrusted input.
 Document parse_own_toml(std::string_view text, std::string_view file_name);
 Document parse_json(std::string_view text, std::string_view file_name);
 
-/// Equal keys and values, in any order of keys and wherever they stand.
+/// Equal keys and values; the order of keys and their places in the text do not matter.
 bool same_tree(const Node& a, const Node& b);
 
 /// A value as the user would recognise it in a message, at most about 60 characters.

@@ -44,7 +44,7 @@ TEST(Document, TomlValuesKnowTheirPlaces) {
   expect_spot(at(document, {"c", "d"}).spot, 3, 11);
 }
 
-// Read without the guard: the program's own schema needs none.
+// The schema is read without the guard, which it does not need.
 TEST(Document, TheGuardHasNothingAgainstTheSchema) {
   const std::string schema = read_file(PINTLE_SOURCE_DIR "/schema/model.schema.toml");
   EXPECT_TRUE(same_tree(parse_toml(schema, "model.schema.toml").root, parse_own_toml(schema, "model.schema.toml").root));

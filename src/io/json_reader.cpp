@@ -1,4 +1,4 @@
-// JSON text to a document. Our own reader, because every value must know its line and column.
+// Converts JSON text to a document. A reader of our own, because every value must know its line and column.
 
 #include <algorithm>
 #include <charconv>
@@ -177,7 +177,7 @@ class JsonReader {
     }
   }
 
-  // \uXXXX, or two of them that make a pair.
+  // \uXXXX, or two of them that form a surrogate pair.
   std::uint32_t read_code_point() {
     const std::uint32_t first = read_hex_escape();
     const bool high = first >= 0xD800U && first <= 0xDBFFU;

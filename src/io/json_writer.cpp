@@ -1,4 +1,4 @@
-// A document as JSON: two blanks per level, lists of scalars on one line.
+// A document as JSON: indented by two spaces per level, lists of scalars on one line.
 
 #include <algorithm>
 

@@ -13,7 +13,7 @@
 namespace pintle {
 namespace {
 
-// A piece of the full model is replaced; @ in the replacement stands before the character that is to be blamed.
+// One piece of the full model is replaced; in the replacement, @ precedes the character that the complaint should point at.
 struct Mistake {
   const char* piece;
   const char* replacement;

@@ -18,10 +18,10 @@ std::vector<std::string> files_named_in(const Document& document);
 /// Keeps what it has read: a run copies it into its folder.
 class ModelFiles {
  public:
-  /// Of the model in this file.
+  /// For the model in this file.
   explicit ModelFiles(const std::filesystem::path& model) : folder_(model.parent_path()) {}
 
-  /// For parse_model(), as long as this object is there. Its FileErrors name the path.
+  /// For parse_model(); valid as long as this object exists. Its FileErrors name the path.
   FileText reader();
   /// By name.
   const std::map<std::string, std::string>& texts() const { return texts_; }

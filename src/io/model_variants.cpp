@@ -15,7 +15,7 @@ std::vector<std::string> keys_of(const std::string& path) {
   return keys;
 }
 
-// The node at a path; tables and the key itself are added where the file leaves them to defaults.
+// The node at a path; tables and the key itself are added if the file leaves them at their defaults.
 Node& node_at(Node& root, const std::vector<std::string>& keys) {
   Node* at = &root;
   for (const std::string& key : keys) {
@@ -30,7 +30,7 @@ void put_in(std::vector<Thing>& all, const std::vector<std::size_t>& places, std
   for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = std::move(changed[k]);
 }
 
-// Stands in the places of the varied numbers until they have values: no file holds it, and `depends` finds it.
+// Placeholder for a varied number until it has a value: it occurs in no file, and `depends` finds it.
 constexpr const char* kVaried = "\x01";
 
 }  // namespace
@@ -70,8 +70,8 @@ void ModelVariants::begin_reading() {
   let_expressions_call_tables(*reading_);
 }
 
-// Whether a varied number, or the name of a parameter that changes, stands somewhere in it. A name inside another one counts too:
-// too much is read again then, nothing too little.
+// Whether it contains a varied number or the name of a parameter that changes. A name inside a longer one counts too:
+// then more is read again than necessary, but never less.
 bool ModelVariants::depends(const Node& node) const {
   if (const Table* table = node.table()) return std::any_of(table->entries().begin(), table->entries().end(), [this](const Entry& entry) { return depends(entry.value); });
   if (const Array* array = node.array()) return std::any_of(array->begin(), array->end(), [this](const Node& item) { return depends(item); });
@@ -103,7 +103,7 @@ void ModelVariants::leave_out_what_stays() {
   };
   const auto add_dependent = [this](const Node& section) {
     std::size_t known = 0;
-    do {  // those made of others that change
+    do {  // those defined by others that change
       known = parameters_.size();
       for (const Entry& entry : section.table()->entries())
         if (depends(entry.value)) parameters_.insert(entry.key);

@@ -1,4 +1,4 @@
-// JointKinematics again only what depends on a number gives what reading everything gives, for every number of every mechanism.
+// Reading again only what depends on a number gives the same as reading everything, for every number of every mechanism.
 #include "io/model_variants.h"
 
 #include <fmt/format.h>
@@ -95,7 +95,7 @@ TEST(ModelVariants, AreTheModelsWithOverrides) {
   EXPECT_GT(compared, 400);
 }
 
-// Tables that depend on a number are read again, and so is what calls them or takes their points.
+// Tables that depend on a number are read again, and so is everything that calls them or uses their points.
 TEST(ModelVariants, ReadTablesAgain) {
   const std::string text = R"(format = 1
 [parameters]

@@ -1,4 +1,4 @@
-// Thousands of damaged models, always the same ones: each gives a model or an InputError, never anything else.
+// Thousands of damaged models, always the same: each gives a model or an InputError, never anything else.
 
 #include <gtest/gtest.h>
 
@@ -87,7 +87,7 @@ void mutate(std::string& text, Random& random) {
   if (text.empty()) text = "x";
 }
 
-// Whether it was read.
+// Whether it could be read.
 bool try_to_read(const std::string& text, const std::string& name, const std::vector<std::string>& overrides = {}) {
   try {
     parse_model(text, name, overrides);
@@ -103,7 +103,7 @@ void try_to_format(const std::string& text) {
     const std::string once = format_toml(text, "x.toml");
     EXPECT_EQ(format_toml(once, "x.toml"), once) << text;
   } catch (const InputError&) {
-    // It is not TOML.
+    // Not TOML.
   }
 }
 
@@ -116,7 +116,7 @@ TEST(Mutation, TomlModels) {
     read += try_to_read(text, "x.toml") ? 1 : 0;
     if (i % 4 == 0) try_to_format(text);
   }
-  EXPECT_GT(read, 10);  // damage to comments, names and numbers may be no mistake
+  EXPECT_GT(read, 10);  // damage to comments, names and numbers can leave a valid model
 }
 
 TEST(Mutation, JsonModels) {

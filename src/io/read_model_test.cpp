@@ -81,7 +81,7 @@ TEST(ReadModel, JointsTakeTheirOwnValuesThenDefaultsThenTheCatalogs) {
   EXPECT_EQ(values(2, "angular_damping"), std::vector<double>{7});
 }
 
-// One key rubs in all joints that can: not in rods, nor where a joint's law rubs itself, nor where the joint says otherwise.
+// One key gives friction to all joints that can have it: not rods, nor joints whose law already has friction, nor those that say otherwise.
 TEST(ReadModel, FrictionOfTheDefaultsIsThatOfAllJointsThatCanHaveIt) {
   const std::string text = R"toml(
 format = 1
@@ -137,7 +137,7 @@ ideal = true
   EXPECT_EQ(parse_model(text, "x.toml", std::vector<std::string>{"defaults.joint.friction=none"}).joints[0].friction.word, "");
 }
 
-// A spring with a wrong value is not also said to have none.
+// A spring with an invalid value is not also reported as having none.
 TEST(ReadModel, ASpringWithAWrongStiffnessIsComplainedAboutOnce) {
   try {
     parse_model("format = 1\n[simulate]\nduration = 1\n[ground.markers]\no = [0, 0]\n[body.a]\nmass = 1\ninertia = 1\nmarkers.c = [0, 0]\n"
@@ -189,7 +189,7 @@ TEST(ReadModel, Motors) {
   EXPECT_EQ(model.motors[2].stiffness, 1e6);
 }
 
-// "lagrangian" is another word for "relative".
+// "lagrangian" is a synonym of "relative".
 TEST(ReadModel, SynonymsStandForTheirWords) {
   for (const char* word : {"simulate.equations=relative", "simulate.equations=lagrangian"})
     EXPECT_EQ(parse_model(kFullModel, "x.toml", std::vector<std::string>{word}).simulate.equations, Equations::kRelative) << word;
@@ -210,7 +210,7 @@ TEST(ReadModel, PenaltiesAndAugmentedLagrangian) {
   EXPECT_EQ(parse_model(kFullModel, "x.toml", {"simulate.equations=augmented_lagrangian", "simulate.method=trapezoidal"}).simulate.method, "ode23t");
 }
 
-// The rate of a free coordinate has the coordinate's name in it; `rate` alone is that of the slide, where there is one.
+// The rate of a free coordinate is named after the coordinate; `rate` alone is the slide's, if there is one.
 TEST(ReadModel, RatesOfFreeCoordinates) {
   for (const char* law : {"motor.M.torque=5 N*m - 0.1*angle_rate", "motor.M.torque=5 N*m - 0.1*rate", "motor.M.torque=5 N*m - 0.2*B.slide_rate"})
     EXPECT_EQ(parse_model(kFullModel, "x.toml", std::vector<std::string>{law}).motors[0].law.variables().size(), 1U) << law;
@@ -266,7 +266,7 @@ std::string chain(int bodies) {
   return text;
 }
 
-// Processor time of reading it [s].
+// Processor time to read it [s].
 double reading_time(int bodies) {
   const std::string text = chain(bodies);
   const std::clock_t start = std::clock();
@@ -275,7 +275,7 @@ double reading_time(int bodies) {
 }
 
 TEST(ReadModel, TimeIsLinearInTheNumberOfBodies) {
-  reading_time(500);  // the first is slower
+  reading_time(500);  // the first call is slower
   EXPECT_LT(reading_time(8000), 5 * 8 * reading_time(1000)) << "64 times if it were quadratic";
 }
 
@@ -303,7 +303,7 @@ TEST(ReadModel, ABearingHasThePinThatRubs) {
   }
 }
 
-// Keys that both laws have stay, those of the former one alone go, and a note says so.
+// Keys that both laws have are kept, those of the former law alone are dropped, and a note says so.
 TEST(ReadModel, ALawIsChosenWithItsKeys) {
   const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=maxwell,branch_ratio=[1, 2],branch_time=[\"10 ms\", 0.1],damping='7 N*s/m'"});
   const LawChoice& law = model.joints[1].law;
@@ -320,7 +320,7 @@ TEST(ReadModel, ALawIsChosenWithItsKeys) {
   EXPECT_EQ(back.notes.back(), "joint A: law linear instead of maxwell; with the joint's own stiffness, damping; without branch_ratio, branch_time, which it does not have");
 }
 
-// One key makes a worn pin ideal and worn again: those of the law that is not stated wait.
+// One key makes a worn pin ideal and worn again: the keys of the law that is not stated are kept in waiting.
 TEST(ReadModel, KeysOfAnotherLawWaitWhereALawIsStated) {
   const Model model = parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.clearance=\"0.1 mm\"", "joint.A.restitution=0.9"});
   EXPECT_EQ(model.joints[1].law.values.count("clearance"), 0U);
@@ -330,7 +330,7 @@ TEST(ReadModel, KeysOfAnotherLawWaitWhereALawIsStated) {
   EXPECT_THROW(parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.notch_width=0.01"}), InputError);
 }
 
-// A word of a friction law chooses the friction; the law that holds the joint stays with its keys.
+// The name of a friction law chooses the friction; the law that holds the joint keeps its keys.
 TEST(ReadModel, FrictionIsChosenLikeALaw) {
   const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=lugre,pin_radius=12 mm"});
   EXPECT_EQ(model.joints[1].law, parse_model(kFullModel, "full.toml").joints[1].law);

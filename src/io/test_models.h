@@ -3,7 +3,7 @@
 
 namespace pintle {
 
-/// The four-bar of section 8 of the paper, with one of everything else.
+/// The four-bar of section 8 of the paper, with one example of everything else.
 inline constexpr const char* kFullModel = R"toml(format = 1
 name = "Four-bar"  # with extras
 description = """

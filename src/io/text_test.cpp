@@ -1,4 +1,4 @@
-// What is quoted of a file in messages.
+// How messages quote text from a file.
 #include "io/text.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ TEST(Quotes, ALongTextIsCutWhereACharacterBegins) {
   EXPECT_EQ(in_quotes("short"), "\"short\"");
   EXPECT_EQ(in_quotes(letters.substr(0, 60)), '"' + letters.substr(0, 60) + '"');
   EXPECT_EQ(in_quotes(letters), '"' + letters.substr(0, 60) + "\"...");
-  EXPECT_EQ(in_quotes(letters.substr(0, 59) + "\u00fcber"), '"' + letters.substr(0, 59) + "\"...");  // the letter would have its second byte at 60
-  EXPECT_EQ(in_quotes(std::string(100, '\x80')), "\"\"...");  // no character begins at all
+  EXPECT_EQ(in_quotes(letters.substr(0, 59) + "\u00fcber"), '"' + letters.substr(0, 59) + "\"...");  // the second byte of the letter would be at 60
+  EXPECT_EQ(in_quotes(std::string(100, '\x80')), "\"\"...");  // no character begins anywhere
 }
 
 TEST(Quotes, SpecialCharactersAreWrittenAsInAFile) {

@@ -43,7 +43,7 @@ class KeySearch {
     return thing == nullptr ? std::nullopt : key_in(spec_of_thing(*thing));
   }
 
-  // A law of the command line may have taken the place of the one that the file's variations are of.
+  // The law chosen on the command line may have replaced the one that the file's variations refer to.
   bool is_of_another_law() const {
     if (parts_.size() != 3 || parts_[0] != "joint") return false;
     const Node* joints = reading_.root.find("joint");
@@ -58,7 +58,7 @@ class KeySearch {
     return std::nullopt;
   }
 
-  // [body.NAME] and the like, whose keys are numbers; a variation itself is none.
+  // Sections such as [body.NAME], whose keys are numbers; [variation] itself is not one.
   bool is_section() const {
     const std::vector<std::string> children = Schema::model().children(parts_[0]);
     return parts_[0] != "variation" && std::find(children.begin(), children.end(), "*") != children.end();
@@ -173,7 +173,7 @@ class VariationReader {
     if (!(v.from < v.to)) return complain(record_.spot("to"), "to", fmt::format("{:g} to {:g}", v.from, v.to), "the range is empty", "from less than to");
     if (bell && !(v.deviation > 0)) complain(record_.spot("deviation"), "deviation", fmt::format("{:g}", v.deviation), "this must be greater than 0", "\"mean*0.05\"");
     if (v.distribution == Distribution::kLognormal && !(v.mean > 0)) complain(record_.spot("mean"), "mean", fmt::format("{:g}", v.mean), "a lognormal value is positive", "distribution = \"normal\"");
-    constexpr double kFarOut = 6;  // deviations: next to nothing of the distribution lies there
+    constexpr double kFarOut = 6;  // in deviations: the part of the distribution beyond this is negligible
     if (bell && (v.from > v.mean + kFarOut * v.deviation || v.to < v.mean - kFarOut * v.deviation))
       complain(record_.spot("mean"), "mean", fmt::format("{:g}", v.mean), fmt::format("almost none of it lies in the range, {:g} to {:g}", v.from, v.to), "a mean inside the range");
     if (v.distribution == Distribution::kTriangular && !(v.from <= v.mode && v.mode <= v.to))

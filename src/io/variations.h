@@ -1,4 +1,4 @@
-// Values that vary by chance, as [variation] states them, and which keys of a model can be varied at all.
+// Values that vary randomly, as stated in [variation], and which keys of a model can be varied at all.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@ namespace pintle {
 
 enum class Distribution { kNormal, kLognormal, kUniform, kTriangular };
 
-/// A number of the model that follows a distribution, cut off at `from` and `to`. SI.
+/// A number of the model that follows a distribution truncated at `from` and `to`. SI.
 struct Variation {
   std::string path;  ///< "joint.A.stiffness"
   std::string unit;
   Distribution distribution = Distribution::kNormal;
-  double mean = 0, deviation = 0;  ///< normal, lognormal: of the value itself, before it is cut off
+  double mean = 0, deviation = 0;  ///< normal, lognormal: of the value itself, before truncation
   double mode = 0;                 ///< triangular
-  double from = 0, to = 0;         ///< infinite where nothing limits it; the key's own range is in them
+  double from = 0, to = 0;         ///< infinite if there is no limit; the key's own range is included
 };
 
-/// A key of the model that is one number.
+/// A key of the model that holds a single number.
 struct VariedKey {
   std::string unit;  ///< "" for a pure number
   Dimension dimension;
@@ -30,11 +30,11 @@ struct VariedKey {
   bool allows(double x) const;
 };
 
-/// What stands at `path`. Complains, at `spot`, where nothing does or it is not one number. Everything else must have been read.
+/// The key at `path`. Complains, at `spot`, if there is nothing or not a single number. Everything else must have been read.
 std::optional<VariedKey> varied_key(ModelReading& reading, const std::string& path, Spot spot);
 
-/// The table [variation]; complains about what is wrong with it. Everything else must have been read. Unless values are `to_be_drawn`, keys of another law than
-/// their joint has are passed over with a note.
+/// The table [variation]; complains about what is wrong with it. Everything else must have been read. Unless values are `to_be_drawn`, keys that belong to a law
+/// other than the joint's are skipped with a note.
 std::vector<Variation> read_variations(ModelReading& reading, bool to_be_drawn);
 
 }  // namespace pintle

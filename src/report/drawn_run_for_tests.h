@@ -1,4 +1,4 @@
-// Runs of the collection and of small models, for the tests of this room.
+// Runs of the collection's mechanisms and of small models, for the tests of this room.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ inline DrawnRun run_of_mechanism(const std::string& name) {
   return run_of(read_file(PINTLE_SOURCE_DIR "/mechanisms/" + name + ".toml"));
 }
 
-/// Its first `duration` [s], at a tolerance that is enough for pictures.
+/// Its first `duration` [s], at a tolerance sufficient for pictures.
 inline DrawnRun sketch_of_mechanism(const std::string& name, double duration) {
   return run_of(read_file(PINTLE_SOURCE_DIR "/mechanisms/" + name + ".toml"), duration, 1e-2);
 }

@@ -25,7 +25,7 @@ Vec2 nearest_on(const Vec2& from, const Vec2& to, const Vec2& p) {
 
 namespace {
 
-/// The chain of Andrew's algorithm over sorted points, without its last point.
+/// One half of the hull of sorted points by Andrew's algorithm, without its last point.
 std::vector<Vec2> half_hull(const std::vector<Vec2>& sorted) {
   std::vector<Vec2> chain;
   for (const Vec2& p : sorted) {
@@ -42,7 +42,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points, double flat) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
-  // The pair farthest apart is the axis; all within `flat` of it: a bar.
+  // The two points farthest apart give the axis; if all points are within `flat` of it, the outline is a bar.
   Vec2 a = points.front(), b = points.back();
   for (const Vec2& p : points)
     for (const Vec2& q : points)

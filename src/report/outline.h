@@ -16,15 +16,15 @@ inline double cross(const Vec2& a, const Vec2& b) { return a[0] * b[1] - a[1] * 
 inline Vec2 normal(const Vec2& a) { return {-a[1], a[0]}; }  ///< turned by +90 degrees
 double length(const Vec2& a);
 Vec2 direction(double angle);
-Vec2 unit(const Vec2& a);  ///< of length 1; {1, 0} for a vector without length
+Vec2 unit(const Vec2& a);  ///< of length 1; {1, 0} for a zero vector
 
-/// The corners of the convex hull, counter-clockwise. Points less than `flat` off a line count as on it, so that points in
-/// a row leave their two ends.
+/// The corners of the convex hull, counter-clockwise. Points less than `flat` off a line count as lying on it, so of
+/// points in a row only the two ends remain.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points, double flat);
 
 Vec2 nearest_on(const Vec2& from, const Vec2& to, const Vec2& p);
 
-/// A rectangle around `centre`, `half` of its sides along and across `along` (of length 1).
+/// A rectangle around `centre`; `half` has half its side lengths along and across `along` (of length 1).
 std::vector<Vec2> rectangle(const Vec2& centre, const Vec2& along, const Vec2& half);
 
 /// Points on the cubic curve from `a` to `b` with these tangents at its ends (Hermite).

@@ -1,4 +1,4 @@
-// Puts a report's page together.
+// Assembles the page of a report.
 #include <fmt/format.h>
 
 #include <string_view>
@@ -39,7 +39,7 @@ std::string header(const Model& model, const RunRecord& run) {
                             escaped_markup(verdict.text));
 }
 
-/// Where the peak of all joints is: for print, and where no script runs.
+/// A still at the peak over all joints, for print and for browsers without scripts.
 std::string still(const Scene& scene, const Trajectory& trajectory) {
   const LoadSummary* joint = largest_joint(trajectory);
   const double t = joint ? joint->peak_time : trajectory.at(0, 0);
@@ -47,7 +47,7 @@ std::string still(const Scene& scene, const Trajectory& trajectory) {
   options.most_height = 620;
   options.whole_arrows = true;
   std::string svg = still_svg(scene, instant_at(scene, trajectory, t), options);
-  constexpr std::string_view kNamespace = " xmlns=\"http://www.w3.org/2000/svg\"";  // which HTML does not need
+  constexpr std::string_view kNamespace = " xmlns=\"http://www.w3.org/2000/svg\"";  // HTML does not need it
   if (const std::size_t at = svg.find(kNamespace); at != std::string::npos) svg.erase(at, kNamespace.size());
   return fmt::format("<figure class=\"still\">{}<figcaption>{}</figcaption></figure>\n", svg,
                      joint ? fmt::format("At the largest joint force, {:.5g} N at {}, t = {:.5g} s. Arrows are the forces on the second body of each joint.",

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 bool ends_with(std::string_view text, std::string_view end) { return text.ends_with(end); }
 
-/// Reactions on a joint's first body are the negative of those on the second, and joint axes are a turn of world axes.
+/// Reactions on a joint's first body are the negatives of those on the second, and those in joint axes are rotated from world axes.
 bool is_derived(const std::string& name, const std::vector<std::string>& first_prefixes) {
   if (ends_with(name, ".f1[joint]") || ends_with(name, ".f2[joint]")) return true;
   return std::binary_search(first_prefixes.begin(), first_prefixes.end(), name.substr(0, name.rfind('.') + 1));
@@ -28,7 +28,7 @@ bool is_derived(const std::string& name, const std::vector<std::string>& first_p
 
 Json rounded(double x, double step) { return step > 0 ? Json(std::round(x / step) * step + 0.0) : Json(x); }
 
-/// The rows on both sides of the peaks of the largest joints, `most` of them.
+/// The rows on both sides of the peaks of the largest joints, at most `most` rows.
 std::vector<std::size_t> peak_rows(const Trajectory& trajectory, std::size_t most) {
   std::vector<std::pair<double, double>> peaks;  // force, time
   for (const LoadSummary& joint : trajectory.joints) peaks.emplace_back(joint.peak, joint.peak_time);
@@ -72,7 +72,7 @@ class PageData {
   }
 
  private:
-  /// Place among the page's columns; -1: not there.
+  /// Index among the page's columns; -1: not on the page.
   int kept(int column) const {
     if (column < 0) return -1;
     const auto found = std::lower_bound(place_.begin(), place_.end(), std::pair(static_cast<std::size_t>(column), 0));
@@ -95,7 +95,7 @@ class PageData {
     const char *label, *subscript;
   };
 
-  /// A plot of columns of one unit; with `magnitude` the length of the first two as well. Nothing if one is missing.
+  /// A plot of columns with one unit; with `magnitude` also the length of the first two. Adds nothing if a column is missing.
   void add_quantity(Json& group, const std::string& title, const std::vector<Entry>& entries, const char* magnitude = nullptr) const {
     Json curves = Json::array();
     std::string unit;
@@ -187,7 +187,7 @@ class PageData {
     return list;
   }
 
-  /// Applied forces, row by row in world axes.
+  /// Applied forces in world axes, row by row.
   Json loads() const {
     Json list = Json::array();
     for (const LoadArrow& load : scene_.loads) {
@@ -248,9 +248,9 @@ class PageData {
   const Trajectory& trajectory_;
   const PageContent& content_;
   ColumnIndex all_;
-  std::vector<std::pair<std::size_t, int>> place_;  // column of the run, place on the page
+  std::vector<std::pair<std::size_t, int>> place_;  // column of the run, index on the page
   std::map<std::string, const PinMarkers*> pins_;
-  double grain_ = 1e-5 * scene_.unit;               // nothing finer can be seen
+  double grain_ = 1e-5 * scene_.unit;               // smallest visible difference
 };
 
 }  // namespace

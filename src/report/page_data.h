@@ -1,4 +1,4 @@
-// What the script of a report's page works on, as JSON: the drawing, the columns, and which of them belong together.
+// The data for the script of a report's page, as JSON: the drawing, the columns, and which of them belong together.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace pintle {
 
-/// Which part of a run a page carries.
+/// The part of a run that a page contains.
 struct PageContent {
-  std::vector<std::size_t> rows;     ///< in the order of time; all, or so many that the page stays of a sane size
-  std::vector<std::size_t> columns;  ///< those that cannot be had from others; the first is the time
+  std::vector<std::size_t> rows;     ///< in the order of time; all, or as many as keep the page to a reasonable size
+  std::vector<std::size_t> columns;  ///< those that cannot be derived from others; the first is the time
 };
 
-/// At most about `most_values` numbers. Of a thinned run the first and last row stay, and those where a joint has its peak.
+/// At most about `most_values` numbers. A thinned run keeps its first and last rows and those at the joints' peaks.
 PageContent choose_content(const Trajectory& trajectory, std::size_t most_values);
 
-/// One JSON object, without any "<", so that it can stand in a script element.
+/// One JSON object without any "<", so that it can be placed in a script element.
 std::string page_data(const Scene& scene, const RunRecord& run, const PageContent& content);
 
-/// Doubles, eight bytes each with the lowest first, in base 64.
+/// Doubles of eight bytes each, lowest byte first, in base 64.
 std::string base64(const std::vector<double>& values);
 
 }  // namespace pintle

@@ -20,9 +20,9 @@
 namespace pintle {
 namespace {
 
-constexpr std::size_t kMostRows = 2000;  // of a table; a longer one shows its largest
+constexpr std::size_t kMostRows = 2000;  // in a table; a longer one shows only the largest
 
-/// Numbers as the console writes them, powers of ten as people do.
+/// Numbers as the console writes them, but with powers of ten as people write them.
 std::string number(const std::string& text) {
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text.starts_with('-') ? "−" + text.substr(1) : text;
@@ -67,7 +67,7 @@ std::string jump_button(const LoadSummary& joint) {
 
 std::string count(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
 
-/// In their order; of very many the largest.
+/// All joints in their order, or if there are too many, the largest.
 std::vector<const LoadSummary*> shown_joints(const Trajectory& trajectory) {
   std::vector<const LoadSummary*> list;
   for (const LoadSummary& joint : trajectory.joints) list.push_back(&joint);

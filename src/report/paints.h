@@ -1,4 +1,4 @@
-// Colours and lines of a drawing, on a light and on a dark ground. The page of a report gets the same table.
+// Colours and lines of a drawing, for light and dark backgrounds. The page of a report gets the same table.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace pintle {
 
-/// [0] on a light ground, [1] on a dark one.
+/// [0] on a light background, [1] on a dark one.
 using Shades = std::array<const char*, 2>;
 
 struct PaintStyle {
   Paint paint;
   const char* name;   ///< in the page's data
-  Shades fill;        ///< "": not filled; "tint": the body's own colour; "paper": the ground's
+  Shades fill;        ///< "": not filled; "tint": the body's own colour; "paper": the background's
   Shades line;        ///< "": no line
   double line_width;  ///< [px]
-  const char* dash;   ///< of the line [px]; "" for a whole one
+  const char* dash;   ///< of the line [px]; "" for a solid line
 };
 
 const PaintStyle& style_of(Paint paint);
@@ -39,7 +39,7 @@ inline constexpr Shades kLoadShades{"#b35900", "#ffab4a"};  ///< applied forces
 inline constexpr Shades kTraceShades{"#2563a8", "#7db4f0"};
 inline constexpr Shades kNoteShades{"#5b6570", "#9aa5b1"};
 
-/// A paint's entry as a colour: "tint" is that of `body`.
+/// The colour for a paint's entry: "tint" is that of `body`.
 std::string colour_of(const char* entry, int body, bool dark);
 
 }  // namespace pintle

@@ -1,5 +1,5 @@
-// Pictures as they were when somebody last looked at them: tests/pictures. One that has changed is written to out/pictures; where it is right, it takes the
-// place of the other.
+// Compares pictures with those in tests/pictures, which were checked by eye. A picture that has changed is written to out/pictures; if it is correct, it
+// replaces the old one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,13 +15,13 @@
 namespace pintle {
 namespace {
 
-constexpr double kPixels = 0.1;  // that a coordinate may be off: what compilers and processors do to a run
+constexpr double kPixels = 0.1;  // tolerance of a coordinate, for differences that compilers and processors make to a run
 
-// Where two texts differ by more than numbers do by rounding; npos: nowhere.
+// Where two texts differ by more than rounding does in their numbers; npos: nowhere.
 std::size_t first_difference(const std::string& a, const std::string& b) {
   const auto starts_number = [](const std::string& s, std::size_t i) {
     const bool digit = std::isdigit(static_cast<unsigned char>(s[i])) != 0, sign = s[i] == '-' && i + 1 < s.size() && std::isdigit(static_cast<unsigned char>(s[i + 1])) != 0;
-    return (digit || sign) && (i == 0 || s[i - 1] != '#');  // a colour is none
+    return (digit || sign) && (i == 0 || s[i - 1] != '#');  // a colour is not a number
   };
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -46,7 +46,7 @@ TEST(Pictures, ADifferenceIsMoreThanRounding) {
   EXPECT_NE(first_difference("#e4e4de", "#e5e4de"), std::string::npos);
 }
 
-// On a dark background without the centres of mass.
+// The picture on a dark background omits the centres of mass.
 void expect_as_before(const std::string& name, const drawn::DrawnRun& drawn, bool dark = false) {
   const Scene scene = make_scene(drawn.model, drawn.run.trajectory);
   StillOptions options;
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Drawn, PictureOf,
                                          "inverted_slider_crank", "jaw_coupling", "lubricated_crank", "quick_return", "robot_arm", "selector_switch", "trammel", "weld_beam", "wheel_over_bump"),
                          [](const auto& mechanism) { return std::string(mechanism.param); });
 
-// What no mechanism of the collection has, on either background.
+// What no mechanism of the collection has, on both backgrounds.
 TEST(Pictures, Oddments) {
   const drawn::DrawnRun run = drawn::run_of(read_file(PINTLE_SOURCE_DIR "/tests/pictures/oddments.toml"));
   expect_as_before("oddments", run);

@@ -29,7 +29,7 @@ Vec2 force_of(const LoadArrow& load, double t, const Pose& pose) {
 
 Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t) {
   const std::size_t n = trajectory.n_rows();
-  std::size_t low = 0, high = n;  // the last row that is not after t
+  std::size_t low = 0, high = n;  // low: the last row that is not after t
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
     (trajectory.at(middle, 0) <= t ? low : high) = middle;

@@ -1,4 +1,4 @@
-// Where bodies are in a row of a run, and at instants between rows.
+// Positions of bodies in a row of a run, and at instants between rows.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-/// Of a body's axes: origin and the cosine and sine of their angle.
+/// The pose of a body's axes: their origin, and the cosine and sine of their angle.
 struct Pose {
   double x = 0, y = 0, c = 1, s = 0;
   Vec2 world(Vec2 p) const { return {x + c * p[0] - s * p[1], y + s * p[0] + c * p[1]}; }
@@ -18,7 +18,7 @@ struct Pose {
   Vec2 turned(Vec2 d) const { return {c * d[0] - s * d[1], s * d[0] + c * d[1]}; }
 };
 
-/// Where a spot is, its bodies being there.
+/// The position of a spot, given the poses of its bodies.
 inline Vec2 place_of(const MovingPoint& spot, const Pose& at, const Pose& toward) {
   const Vec2 a = at.world(spot.at.point), b = toward.world(spot.toward.point), off = toward.turned(spot.off);
   return {a[0] + spot.share * (b[0] - a[0]) + off[0], a[1] + spot.share * (b[1] - a[1]) + off[1]};
@@ -33,7 +33,7 @@ struct Instant {
   std::vector<Vec2> forces;  ///< per arrow of the scene [N]
   std::vector<Vec2> loads;   ///< per load of the scene, world axes [N]
 
-  /// Of the world's axes for kWorld.
+  /// The identity for kWorld.
   Pose pose(int body) const { return body == kWorld ? Pose{} : poses[static_cast<std::size_t>(body)]; }
   Vec2 place(const Anchor& anchor) const { return pose(anchor.body).world(anchor.point); }
   /// The direction of its axis in the world, of length 1.
@@ -41,17 +41,17 @@ struct Instant {
   Vec2 place(const MovingPoint& spot) const { return place_of(spot, pose(spot.at.body), pose(spot.toward.body)); }
 };
 
-/// In world axes [N], on a body that is at `pose` at time t.
+/// The force in world axes [N] on a body that is at `pose` at time t.
 Vec2 force_of(const LoadArrow& load, double t, const Pose& pose);
 
-/// At time t [s], straight between the rows beside it. The trajectory has at least one row.
+/// At time t [s], interpolated linearly between the neighbouring rows. The trajectory has at least one row.
 Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t);
 
-/// Names of columns to their places.
+/// Maps names of columns to their indices.
 class ColumnIndex {
  public:
   explicit ColumnIndex(const std::vector<Column>& columns);
-  int find(const std::string& name) const;  ///< -1: there is none
+  int find(const std::string& name) const;  ///< -1: not found
 
  private:
   std::unordered_map<std::string, int> places_;

@@ -174,7 +174,7 @@ TEST(Report, VerdictNamesTheWorstJoint) {
   EXPECT_EQ(verdict_on(run.trajectory).kind, Verdict::kDoubtful);
 }
 
-// A finer integration that failed leaves no estimates: nothing may say that they are zero.
+// A finer integration that failed leaves no estimates; nothing may claim that they are zero.
 TEST(Report, VerdictWithoutEstimatesSaysSo) {
   auto [model, run] = run_of_mechanism("four_bar");
   for (LoadSummary& joint : run.trajectory.joints) joint.error_estimate = joint.moment_error_estimate = joint.relative_error_estimate = 0;
@@ -209,7 +209,7 @@ force = [3, 4]
   EXPECT_TRUE(holds(still_svg(scene, instant_at(scene, run.trajectory, 0), {}), "5 N</text>"));
 }
 
-// Thinned in time: the ends and the rows beside peaks stay, and the page says what it shows.
+// A run thinned in time keeps its ends and the rows next to peaks, and the page says what it shows.
 TEST(Report, LargeRunsAreThinnedButKeepTheirPeaks) {
   const auto [model, run] = run_of_mechanism("andrews");
   const Trajectory& trajectory = run.trajectory;
@@ -246,7 +246,7 @@ TEST(Report, RunsWithNothingToDrawStillHaveTables) {
 TEST(Report, TablesCanBeReadAloud) {
   const auto [model, run] = run_of_mechanism("quick_return");
   const std::string html = report_html(model, run);
-  EXPECT_EQ(count(html, "<th>"), 0u);  // each says what it is the head of
+  EXPECT_EQ(count(html, "<th>"), 0u);  // each header states its scope
   for (const std::string id : {"time", "play", "speed", "trace"}) EXPECT_EQ(count(html, " id=\"" + id + "\""), 1u) << id;
   EXPECT_TRUE(holds(html, "role=\"img\" aria-label=\"The moving mechanism\""));
   EXPECT_TRUE(holds(html, "lang=\"en\""));
@@ -259,7 +259,7 @@ TEST(Still, KeepsWithinItsSize) {
   options.width = 641;
   const StillFrame wide = frame_for(scene, options);
   EXPECT_EQ(wide.width, 642);
-  EXPECT_EQ(std::fmod(wide.height, 2), 0);  // films want even sizes
+  EXPECT_EQ(std::fmod(wide.height, 2), 0);  // films need even sizes
   options.most_height = 200;
   EXPECT_LE(frame_for(scene, options).height, 202);
 }
@@ -268,7 +268,7 @@ TEST(Still, TraceFollowsItsPoint) {
   const auto [model, run] = run_of_mechanism("trammel");
   const Scene scene = make_scene(model, run.trajectory);
   const Trace trace = make_trace(scene, run.trajectory, "bar.P");
-  for (const Vec2& p : trace.points)  // the ellipse of the trammel
+  for (const Vec2& p : trace.points)  // the trammel's ellipse
     EXPECT_NEAR(p[0] * p[0] / (0.1 * 0.1) + p[1] * p[1] / (0.3 * 0.3), 1, 1e-4);
   try {
     make_trace(scene, run.trajectory, "bar.Q");
@@ -278,7 +278,7 @@ TEST(Still, TraceFollowsItsPoint) {
   }
 }
 
-// A force of three times the longest arrow: cut in a film, whose scale is the run's, and whole in a still of its own.
+// A force of three times the longest arrow: cut in a film, which has the run's scale, and whole in a still, which has its own.
 TEST(Still, ArrowsAreCutOrNot) {
   const auto [model, run] = run_of_mechanism("four_bar");
   const Scene scene = make_scene(model, run.trajectory);

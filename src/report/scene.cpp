@@ -14,7 +14,7 @@ namespace pintle {
 namespace {
 
 constexpr double kSymbolOfBox = 0.021, kSymbolOfSpan = 0.11, kSymbolOfShortest = 0.24;
-constexpr double kArrowOfBox = 0.2;  // of the geometric mean of its sides
+constexpr double kArrowOfBox = 0.2;  // of the geometric mean of the box's sides
 
 double distance(const Vec2& a, const Vec2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
@@ -25,7 +25,7 @@ double span(const std::vector<Vec2>& points) {
   return largest;
 }
 
-// The piston stays inside at either end of the stroke, as far as one stage can.
+// The piston stays inside the barrel at both ends of the stroke, as far as a single stage allows.
 double barrel_length(double closed_length, double stroke) { return std::clamp((closed_length + stroke) / 2, 0.93 * closed_length, closed_length); }
 
 }  // namespace
@@ -88,7 +88,7 @@ Pose SceneMaker::pose(int body, std::size_t row) const {
   return body == kWorld ? Pose{} : pose_of(scene_.bodies[static_cast<std::size_t>(body)], trajectory_, row);
 }
 
-// A failed run may end in a motion without bounds, which must not decide what is in the picture.
+// A failed run may end in an unbounded motion, which must not determine the extent of the picture.
 std::size_t SceneMaker::drawable_rows() const {
   const std::size_t n = trajectory_.n_rows();
   return trajectory_.outcome == Outcome::kFailed && n > 3 ? n - 1 - n / 50 : n;
@@ -181,7 +181,7 @@ void SceneMaker::add_connectors() {
   }
 }
 
-// A mesh acts where the pitch circles touch, a rack where its pitch line touches the pinion's, everything else at the second marker.
+// A gear mesh acts where the pitch circles touch, a rack where its pitch line touches the pinion's circle, every other joint at the second marker.
 std::optional<MovingPoint> SceneMaker::spot_of(const Joint& joint) const {
   const auto first = find(joint.first), second = find(joint.second);
   if (!second) return first ? std::optional(MovingPoint{*first}) : std::nullopt;
@@ -197,7 +197,7 @@ Vec2 SceneMaker::place(const MovingPoint& spot, std::size_t row) const {
   return place_of(spot, pose(spot.at.body, row), pose(spot.toward.body, row));
 }
 
-// Joints in one place share a label.
+// Joints at the same place share a label.
 void SceneMaker::add_labels() {
   const std::size_t middle = trajectory_.n_rows() / 2;
   struct Known {
@@ -243,7 +243,7 @@ double SceneMaker::largest_load() const {
   return largest;
 }
 
-// A shock of a moment must not shrink the arrows of the whole run: the scale follows the RMS where the peak is far above it.
+// A momentary shock must not shrink the arrows of the whole run: if the peak is far above the RMS, the scale follows the RMS.
 void SceneMaker::scale_arrows() {
   constexpr double kPeakOfRms = 3;
   double peak = 0, rms = 0;

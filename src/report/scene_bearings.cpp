@@ -1,4 +1,4 @@
-// How the bearing of a pin looks: balls, oil, rubber, or room between pin and bush.
+// How the bearing of a pin is drawn: balls, oil, rubber, or the clearance between pin and bush.
 #include <cmath>
 #include <string_view>
 
@@ -20,7 +20,7 @@ Ring ring_of(std::string_view law) {
 
 }  // namespace
 
-/// What is around the pin of a revolute joint whose law is no plain spring and damper.
+/// The ring around the pin of a revolute joint whose law is more than a spring and a damper.
 void SceneMaker::add_bearing_ring(const Joint& joint, const Anchor& bush) {
   constexpr double kOuter = 0.95, kCentres = 0.73, kBall = 0.15;  // [units]; the pin has 0.5
   constexpr int kBalls = 10;

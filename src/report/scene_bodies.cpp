@@ -1,4 +1,4 @@
-// How bodies look: links, plates, bobs, wheels, sliders.
+// How bodies are drawn: links, plates, bobs, wheels, sliders.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,7 +29,7 @@ void SceneMaker::add_body(int body) {
   add_mass_mark(body);
 }
 
-// A body that guides another: its tracks, joined to each other, and an arm from each of its other points to the nearest place on them.
+// A body that guides another: its tracks, joined together, and an arm from each of its other points to the nearest place on a track.
 void SceneMaker::add_tracks(int body, const BodySketch& sketch) {
   const double u = scene_.unit;
   const bool slotted = std::any_of(sketch.tracks.begin(), sketch.tracks.end(), [](const Track& t) { return t.kind == Track::kSlot; });
@@ -42,7 +42,7 @@ void SceneMaker::add_tracks(int body, const BodySketch& sketch) {
     if (track.kind == Track::kSlot)
       put(kHoles, {Form::kBar, Paint::kHole, body, {{track.from, track.to}}, kSlotWidth * u});
   }
-  // From the nearest of these places to the nearest of the first so many tracks.
+  // Adds an arm from whichever of these places is nearest to the first `tracks` tracks.
   const auto join = [&](const std::vector<Vec2>& places, std::size_t tracks) {
     std::vector<Vec2> arm;
     for (const Vec2& p : places)
@@ -67,7 +67,7 @@ void SceneMaker::add_tracks(int body, const BodySketch& sketch) {
 void SceneMaker::add_link(int body, const BodySketch& sketch) {
   const double u = scene_.unit;
   const std::vector<Vec2> hull = convex_hull(sketch.points, 0.6 * u);
-  // A wheel is all of its body where the centre of mass is in it: a lid with a pinion at its hinge has its length beside.
+  // A wheel is the whole body if it contains the centre of mass; a lid with a pinion at its hinge extends beyond the wheel.
   const bool wheeled = std::any_of(sketch.wheels.begin(), sketch.wheels.end(), [](const Wheel& wheel) { return length(wheel.centre) <= wheel.radius; });
   const bool covered = wheeled || !sketch.blocks.empty() || !sketch.cams.empty() || !sketch.rollers.empty() || !sketch.faces.empty();
   if (hull.size() > 2) {
@@ -83,7 +83,7 @@ void SceneMaker::add_link(int body, const BodySketch& sketch) {
   }
 }
 
-// A body on a single joint: a uniform rod if its inertia is that of one, else a bob on an arm.
+// A body on a single joint: a uniform rod if its inertia fits, else a bob on an arm.
 void SceneMaker::add_lone_link(int body, const Vec2& pin) {
   const double u = scene_.unit, arm = length(pin), rod = std::numbers::sqrt3 * gyration(body);
   const Vec2 away = -1 / arm * pin;
@@ -113,7 +113,7 @@ void SceneMaker::add_wheels(int body, const BodySketch& sketch) {
     }
     put(kWheels, {Form::kCircle, Paint::kPitch, body, {{wheel.centre}}, wheel.radius});
     if (wheel.ring || wheel.radius < 2.5 * u) continue;
-    // Holes in the web show how it turns.
+    // Holes in the web make the rotation visible.
     Shape holes{Form::kCircle, Paint::kHole, body, {}, 0.17 * wheel.radius};
     for (int k = 0; k < 5; ++k) holes.paths.push_back({wheel.centre + 0.6 * wheel.radius * direction(2 * std::numbers::pi * k / 5)});
     put(kWheels, std::move(holes));
@@ -152,7 +152,7 @@ void SceneMaker::add_block(const Anchor& at) {
   put(kBlocks, {Form::kArea, Paint::kBlock, at.body, {rectangle(at.point, direction(at.axis), {1.9 * u, 1.15 * u})}});
 }
 
-// The draughtsman's mark for a centre of mass: a circle with two black quarters.
+// The draughtsman's symbol for a centre of mass: a circle with two black quarters.
 void SceneMaker::add_mass_mark(int body) {
   const double r = 0.5 * scene_.unit, quarter = std::numbers::pi / 2;
   put(kMarks, {Form::kCircle, Paint::kMassLight, body, {{{0, 0}}}, r});

@@ -1,4 +1,4 @@
-// How flexures look: blades between their clamps, necks between two cut-outs.
+// How flexures are drawn: blades between their clamps, necks between two cut-outs.
 #include <utility>
 
 #include "laws/catalog.h"
@@ -19,7 +19,7 @@ bool SceneMaker::add_flexure(const Joint& joint, const Anchor& first, const Anch
     const double length = at.number("length"), half = 0.5 * at.number("crossing_angle"), crossing = at.number("crossing");
     const auto end = [](const Anchor& marker, double angle, double along) { return Anchor{marker.body, marker.point + along * direction(marker.axis + angle), marker.axis + angle}; };
     for (const double angle : {half, -half}) add_blade(joint.name, end(first, angle, -crossing * length), end(second, angle, (1 - crossing) * length), length);
-    for (const auto& [marker, along] : {std::pair(first, -crossing * length), std::pair(second, (1 - crossing) * length)})  // what the clamps are on
+    for (const auto& [marker, along] : {std::pair(first, -crossing * length), std::pair(second, (1 - crossing) * length)})  // the parts that carry the clamps
       if (marker.body != kWorld) put(kBars, {Form::kBar, Paint::kLink, marker.body, {{end(marker, half, along).point, end(marker, -half, along).point}}, 0.8 * scene_.unit});
   } else if (law->word == "notch-hinge") {
     add_neck(second.body == kWorld ? first : second);
@@ -29,7 +29,7 @@ bool SceneMaker::add_flexure(const Joint& joint, const Anchor& first, const Anch
   return true;
 }
 
-// Clamped at both ends: small squares on bodies, a wall on the ground.
+// A blade clamped at both ends: small squares on bodies, a wall on the ground.
 void SceneMaker::add_blade(const std::string& name, const Anchor& first, const Anchor& second, double length) {
   scene_.connectors.push_back({name, Paint::kBlade, first, second, 0, length});
   for (const auto& [end, out] : {std::pair(first, 1.0), std::pair(second, -1.0)}) {

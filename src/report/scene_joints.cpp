@@ -1,4 +1,4 @@
-// How joints look: pins, supports, guides, slots, meshes, welds; and the motors and springs in them.
+// How joints are drawn: pins, supports, guides, slots, meshes, welds; and the motors and springs in them.
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +42,7 @@ void SceneMaker::sketch_joints() {
   }
 }
 
-// The runs of a belt share their discs.
+// The runs of a belt share their discs, so each disc is added only once.
 void SceneMaker::sketch_discs(const Joint& joint, const Anchor& first, const Anchor& second) {
   const auto add = [&](const Anchor& at, const char* key) {
     const auto radius = joint.geometry.find(key);
@@ -71,7 +71,7 @@ Track SceneMaker::slide_range(const Anchor& guide, const Anchor& block) const {
   return {guide.point + low * along, guide.point + high * along};
 }
 
-// The guide is the ground where one of the two is; else the first body, which carries the joint's axes.
+// The guide is the ground if either body is the ground, else the first body, whose axes are the joint's.
 void SceneMaker::sketch_slider(const Joint& joint, const Anchor& first, const Anchor& second) {
   const bool slot = joint.type == "slot", turned = !slot && is_ground(joint.second) && !is_ground(joint.first);
   const Anchor &guide = turned ? second : first, &block = turned ? first : second;
@@ -86,7 +86,7 @@ void SceneMaker::sketch_slider(const Joint& joint, const Anchor& first, const An
   if (!slot && block.body != kWorld) sketches_[static_cast<std::size_t>(block.body)].blocks.push_back(block);
 }
 
-/// The picture holds the track wherever its body goes.
+/// Extends the picture so that it contains the track at every position of its body.
 void SceneMaker::show(int body, const Track& track) {
   for (const std::size_t row : sample_rows(100))
     for (const Vec2& end : {track.from, track.to}) scene_.box.cover(pose(body, row).world(end), 2.5 * scene_.unit);
@@ -96,7 +96,7 @@ void SceneMaker::show(int body, const Vec2& centre, double radius) {
   for (const std::size_t row : sample_rows(100)) scene_.box.cover(pose(body, row).world(centre), radius + scene_.unit);
 }
 
-/// From the pinion to its rack, of length 1, in the rack's axes.
+/// Unit vector from the pinion towards its rack, in the rack's axes.
 Vec2 SceneMaker::towards_rack(const Anchor& pinion, const Anchor& rack) const {
   const Vec2 centre = pose(rack.body, 0).local(pose(pinion.body, 0).world(pinion.point)), side = normal(direction(rack.axis));
   return dot(centre - rack.point, side) > 0 ? -1.0 * side : side;
@@ -156,7 +156,7 @@ void SceneMaker::hatch(const Vec2& from, const Vec2& to, const Vec2& side) {
   put(kBack, {Form::kLine, Paint::kEarth, kWorld, {{from, to}}});
 }
 
-/// Which way a body lies from a point of the ground, on average: of length 1 if always the same way.
+/// Average direction of a body from a point of the ground: of length 1 if the direction never changes.
 Vec2 SceneMaker::usual_way(const Vec2& from, int body) const {
   Vec2 sum{0, 0};
   const std::vector<std::size_t> rows = sample_rows(60);
@@ -167,7 +167,7 @@ Vec2 SceneMaker::usual_way(const Vec2& from, int body) const {
   return sum;
 }
 
-// A support: triangle under the pin, standing on hatched ground where gravity points; above it what hangs from the pin.
+// A support: a triangle on hatched ground, below the pin as gravity points, or above the pin if the body hangs from it.
 void SceneMaker::add_ground_pin(const Vec2& at, int body) {
   if (!first_at(at, ground_pins_)) return;
   constexpr double kHangs = 0.35;
@@ -186,12 +186,12 @@ void SceneMaker::add_wall(const Vec2& at, const Vec2& out) {
   hatch(at - 2.2 * u * normal(out), at + 2.2 * u * normal(out), -1.0 * out);
 }
 
-/// Where a spring, a rod or a rope is tied to the ground.
+/// The hatching where a spring, a rod or a rope is attached to the ground.
 void SceneMaker::add_ground_end(const Anchor& end, const Anchor& other) {
   if (!first_at(end.point, ground_ends_)) return;
   if (std::any_of(ground_pins_.begin(), ground_pins_.end(), [&](const Vec2& p) { return length(p - end.point) < 0.3 * scene_.unit; })) return;
   const Vec2 out = unit(pose(other.body, 0).world(other.point) - end.point);
-  // The nearest of the four main directions looks best.
+  // The nearest of the four axis directions looks best.
   const Vec2 main = std::abs(out[0]) > std::abs(out[1]) ? Vec2{std::copysign(1.0, out[0]), 0} : Vec2{0, std::copysign(1.0, out[1])};
   const double u = scene_.unit;
   hatch(end.point - 1.6 * u * normal(main), end.point + 1.6 * u * normal(main), -1.0 * main);
@@ -223,12 +223,12 @@ void SceneMaker::sketch_cam(const Joint& joint, const Anchor& first, const Ancho
     show(second.body, second.point, joint.cam->roller_radius);
     return;
   }
-  const Vec2 along = (1.1 * reach + scene_.unit) * direction(second.axis);  // the contact goes as far along the face as the lift changes
+  const Vec2 along = (1.1 * reach + scene_.unit) * direction(second.axis);  // the contact's offset along the face is the slope of the lift
   sketch_of(second.body).faces.push_back({second.point - along, second.point + along});
   show(second.body, second.point, length(along));
 }
 
-// From its marker, where it belongs to its body, as far as what rests on it or flies over it comes.
+// Extends from its marker, where it is attached to its body, as far as anything that rests on it or flies over it gets.
 void SceneMaker::sketch_straight_edge(const Joint& joint, const Anchor& first, const Anchor& second) {
   const auto stated = joint.law.values.find("pin_radius");
   const double radius = stated != joint.law.values.end() && !stated->second.empty() ? stated->second.front() : 0;
@@ -243,7 +243,7 @@ void SceneMaker::sketch_straight_edge(const Joint& joint, const Anchor& first, c
   show(second.body, second.point, radius);
 }
 
-// Its upper side is the edge.
+// The upper side of the drawn band is the edge.
 void SceneMaker::sketch_edge(const Joint& joint, const Anchor& first, const Anchor& second) {
   constexpr int kPoints = 240;
   const EdgeProfile profile(*joint.edge);
@@ -260,7 +260,7 @@ void SceneMaker::sketch_edge(const Joint& joint, const Anchor& first, const Anch
   show(second.body, second.point, profile.roller_radius());
 }
 
-// Tracks and wheels that do not move. Slots that cross become one opening.
+// Fixed tracks and wheels. Crossing slots become one opening.
 void SceneMaker::add_ground_slots() {
   const double u = scene_.unit;
   Shape frame{Form::kBar, Paint::kEarth, kWorld, {}, 2.5 * u}, opening{Form::kBar, Paint::kHole, kWorld, {}, 1.15 * u};
@@ -275,7 +275,7 @@ void SceneMaker::add_ground_slots() {
     frame.paths.push_back({track.from, track.to});
     opening.paths.push_back({track.from, track.to});
   }
-  // Rings first: other wheels are inside them.
+  // Rings first, because other wheels are inside them.
   std::stable_partition(ground_.wheels.begin(), ground_.wheels.end(), [](const Wheel& wheel) { return wheel.ring; });
   for (const Wheel& wheel : ground_.wheels) {
     put(kBack, {Form::kCircle, Paint::kEarth, kWorld, {{wheel.centre}}, wheel.radius + (wheel.ring ? 1.6 : 0.3) * u});
@@ -290,7 +290,7 @@ void SceneMaker::add_ground_slots() {
   put(kBack, std::move(opening));
 }
 
-// A turning motor: three quarters of a turn around its pin, with a head; a pushing one: a straight double arrow.
+// A rotary motor: three quarters of a turn around its pin, with a head; a linear one: a straight double arrow.
 void SceneMaker::add_motor(const Motor& motor) {
   const auto joint = std::find_if(model_.joints.begin(), model_.joints.end(), [&](const Joint& j) { return j.name == motor.joint; });
   if (joint == model_.joints.end()) return;
@@ -317,8 +317,8 @@ void SceneMaker::add_motor(const Motor& motor) {
   put(kMarks, std::move(heads));
 }
 
-// A stroke across the slide, or one away from the pin, at each stop: in the first body's axes, in which the coordinate is measured. The stroke of an
-// angle stands where it stops the centre of the second body.
+// At each stop, a stroke across the slide, or one pointing away from the pin, in the axes of the first body, in which the coordinate is measured. The stroke
+// of an angle marks where the stop halts the centre of the second body.
 void SceneMaker::add_stops(const Joint& joint) {
   const auto first = find(joint.first), second = find(joint.second);
   if (joint.stops.word.empty() || joint.type == "cylinder" || !first || !second) return;

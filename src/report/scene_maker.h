@@ -1,4 +1,4 @@
-// Works out a scene from a model and what moved in its run; one source for bodies, one for joints.
+// Builds a scene from a model and the motion of its run; there is one source for bodies and one for joints.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ namespace pintle {
 struct Track {
   Vec2 from{0, 0}, to{0, 0};  ///< body axes [m]
   enum Kind { kGuide, kSlot, kRack } kind = kGuide;
-  Vec2 other_side{0, 0};  ///< of a rack: unit direction away from its pinion
+  Vec2 other_side{0, 0};  ///< of a rack: unit vector away from its pinion
 };
 
 struct Wheel {
@@ -24,15 +24,15 @@ struct Wheel {
   bool ring = false;  ///< teeth inside
 };
 
-/// What the joints ask of a body's drawing.
+/// What the joints require of a body's drawing.
 struct BodySketch {
-  std::vector<Vec2> points;   ///< its markers, without those in the same place
+  std::vector<Vec2> points;   ///< its markers, without coincident ones
   std::vector<Track> tracks;
   std::vector<Wheel> wheels;
-  std::vector<Anchor> blocks;  ///< where it is a slider
+  std::vector<Anchor> blocks;  ///< where the body is a slider
   std::vector<std::vector<Vec2>> cams;   ///< their outlines
-  std::vector<Wheel> rollers;            ///< on cams and edges; without a radius: a pin
-  std::vector<std::vector<Vec2>> faces;  ///< flat ones on cams, edges: lines of points
+  std::vector<Wheel> rollers;            ///< on cams and edges; radius 0: a pin
+  std::vector<std::vector<Vec2>> faces;  ///< flat faces on cams, edges: polylines
 };
 
 class SceneMaker {
@@ -51,7 +51,7 @@ class SceneMaker {
   void add_arrows();
   double largest_load() const;  ///< of the applied forces [N]
   void scale_arrows();
-  std::optional<Anchor> find(const MarkerRef& ref) const;  ///< absent: its body was not recorded
+  std::optional<Anchor> find(const MarkerRef& ref) const;  ///< empty: its body was not recorded
   Pose pose(int body, std::size_t row) const;
   std::optional<MovingPoint> spot_of(const Joint& joint) const;  ///< where its force acts
   Vec2 place(const MovingPoint& spot, std::size_t row) const;
@@ -80,7 +80,7 @@ class SceneMaker {
   void sketch_cam(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_straight_edge(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_edge(const Joint& joint, const Anchor& first, const Anchor& second);
-  static constexpr double kThick = 0.5;  ///< of faces and edges [units]
+  static constexpr double kThick = 0.5;  ///< thickness of faces and edges [units]
   BodySketch& sketch_of(int body) { return body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(body)]; }
   void show(int body, const Track& track);
   void show(int body, const Vec2& centre, double radius);
@@ -97,13 +97,13 @@ class SceneMaker {
   void add_spiral(const Anchor& at);
   void hatch(const Vec2& from, const Vec2& to, const Vec2& side);
   Track slide_range(const Anchor& guide, const Anchor& block) const;
-  bool first_at(const Vec2& at, std::vector<Vec2>& known) const;  ///< nothing there yet: remembered
+  bool first_at(const Vec2& at, std::vector<Vec2>& known) const;  ///< true if nothing is there yet; the place is then remembered
 
   // scene_bearings.cpp
   void add_bearing_ring(const Joint& joint, const Anchor& bush);
 
   // scene_flexures.cpp
-  bool add_flexure(const Joint& joint, const Anchor& first, const Anchor& second);  ///< false: its law is no flexure's
+  bool add_flexure(const Joint& joint, const Anchor& first, const Anchor& second);  ///< false: not a flexure law
   void add_blade(const std::string& name, const Anchor& first, const Anchor& second, double length);
   void add_neck(const Anchor& at);
 

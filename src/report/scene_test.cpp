@@ -34,7 +34,7 @@ TEST(Scene, FourBarHasThreeLinksFourPinsTwoSupports) {
   EXPECT_EQ(scene.n_unseen, 0u);
 }
 
-// Rolling bearings in O and B, a film of oil in A: the ring is the first body's, around the pin of the second one.
+// Rolling bearings in O and B, an oil film in A: the ring belongs to the first body and surrounds the pin of the second.
 TEST(Scene, BearingsAreDrawnAroundTheirPins) {
   const auto [model, run] = run_of_mechanism("lubricated_crank");
   const Scene scene = make_scene(model, run.trajectory);
@@ -48,7 +48,7 @@ TEST(Scene, BearingsAreDrawnAroundTheirPins) {
   for (const std::vector<Vec2>& ball : balls->paths) EXPECT_LT(length(ball.front()) + balls->size, oil->size);  // O is at the origin
 }
 
-// The drawing closes: the end of each link is where its neighbour's is, in every row, to what the joints give way.
+// The drawing closes: the end of each link coincides with its neighbour's in every row, except for joint deflection.
 TEST(Scene, LinksMeetInTheirJoints) {
   const auto [model, run] = run_of_mechanism("four_bar");
   const Scene scene = make_scene(model, run.trajectory);
@@ -85,7 +85,7 @@ TEST(Scene, ArrowsCarryTheForcesOfTheTable) {
   }
 }
 
-// Between rows everything is in proportion; outside the run it is the end that is nearest.
+// Between rows everything is interpolated linearly; outside the run the nearest end applies.
 TEST(Scene, InstantsLieBetweenRows) {
   const auto [model, run] = run_of_mechanism("pendulum");
   const Trajectory& trajectory = run.trajectory;
@@ -98,7 +98,7 @@ TEST(Scene, InstantsLieBetweenRows) {
   EXPECT_EQ(instant_at(scene, trajectory, a).t, a);
 }
 
-// A uniform rod held at one end is drawn to its other end, which only its inertia tells.
+// A uniform rod held at one end is drawn up to its other end, which only its inertia reveals.
 TEST(Scene, RodOnAPinHasItsLength) {
   const auto [model, run] = run_of_mechanism("pendulum");
   const Scene scene = make_scene(model, run.trajectory);
@@ -108,7 +108,7 @@ TEST(Scene, RodOnAPinHasItsLength) {
   EXPECT_NEAR(length(bar->paths[0][1] - bar->paths[0][0]), 2 * length(pin), 0.01 * length(pin));
 }
 
-// A lid of 0.6 m whose pinion, 60 mm, is at its hinge.
+// A lid of 0.6 m with a pinion of 60 mm at its hinge.
 TEST(Scene, AWheelIsNotAllOfABodyThatReachesFarther) {
   const auto [model, run] = drawn::run_of(R"(
 format = 1
@@ -148,7 +148,7 @@ radius = "60 mm"
   EXPECT_EQ(count_shapes(scene, Paint::kPitch), 1u);
 }
 
-// The lever of a shaper: a slot for the crank and one for the ram, in line. It was drawn in two pieces.
+// The lever of a shaper: a slot for the crank and one for the ram, in line. It used to be drawn in two pieces.
 TEST(Scene, ABodyWithTwoSlotsIsOnePiece) {
   const auto [model, run] = drawn::run_of(R"(
 format = 1
@@ -193,7 +193,7 @@ speed = "30 rpm"
   const Scene scene = make_scene(model, run.trajectory);
   const auto bar = std::find_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) { return shape.form == Form::kBar && shape.paint == Paint::kLink && shape.body == 1; });
   ASSERT_NE(bar, scene.shapes.end());
-  std::vector<std::array<double, 2>> along;  // of the lever's axis, from and to
+  std::vector<std::array<double, 2>> along;  // along the lever's axis, from and to
   for (const std::vector<Vec2>& path : bar->paths) along.push_back({std::min(path.front()[0], path.back()[0]), std::max(path.front()[0], path.back()[0])});
   std::sort(along.begin(), along.end());
   double reached = along.front()[1];
@@ -230,7 +230,7 @@ TEST(Scene, MeshActsWherePitchCirclesTouch) {
   EXPECT_EQ(count_shapes(scene, Paint::kPitch), 3u);
 }
 
-// A blade leaves and reaches its clamps along the markers; bent by little it is as long as it is unloaded.
+// A blade is tangent to the markers at its clamps; if bent only slightly, it is as long as when unloaded.
 TEST(Scene, BladesAreCurvesBetweenTheirClamps) {
   const auto [model, run] = sketch_of_mechanism("parallel_spring_stage", 0.3);
   const Scene scene = make_scene(model, run.trajectory);

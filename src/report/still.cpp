@@ -102,7 +102,7 @@ class Drawing {
     }
   }
 
-  // The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back; of several stages the last one.
+  // The barrel from its end forwards, and from the other end back the rod with its piston, as long as the barrel; if there are several stages, the last one.
   void draw_cylinder(const Connector& connector) {
     const Vec2 a = instant_.place(connector.from), b = instant_.place(connector.to), along = unit(b - a);
     const Vec2 across = Connector::kHalfBarrel * scene_.unit * normal(along), barrel = connector.length * along;
@@ -184,7 +184,7 @@ class Drawing {
     for (const NamedPoint& label : scene_.labels) {
       const Vec2 at = px(instant_.place(label.at));
       const double off = std::max(0.9 * scene_.unit * frame_.scale, 5.0);
-      const double wide = 6.6 * static_cast<double>(count_characters(label.name)) + off + 4;  // about
+      const double wide = 6.6 * static_cast<double>(count_characters(label.name)) + off + 4;  // estimate
       const bool left = at[0] < middle[0] ? at[0] > wide : at[0] + wide > frame_.width;
       put("<text x=\"{0:.1f}\" y=\"{1:.1f}\" font-size=\"12.5\" font-style=\"italic\" text-anchor=\"{2}\" fill=\"{3}\" stroke=\"{4}\" "
           "stroke-width=\"3\" paint-order=\"stroke\">{5}</text>\n",
@@ -197,7 +197,7 @@ class Drawing {
         frame_.height - 12, kNoteShades[options_.dark], instant_.t, scene_.time_decimals);
   }
 
-  /// The largest of 1, 2, 5 times a power of ten that is not above it.
+  /// The largest value of 1, 2 or 5 times a power of ten that does not exceed the force.
   static double scale_force(double force) {
     const double power = std::pow(10, std::floor(std::log10(force))), digit = force / power;
     return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
@@ -218,7 +218,7 @@ class Drawing {
 }  // namespace
 
 StillFrame frame_for(const Scene& scene, const StillOptions& options) {
-  constexpr double kFoot = 24;  // for scale and clock
+  constexpr double kFoot = 24;  // space for scale and clock
   const double foot = options.clock || options.forces ? kFoot : 0;
   const double w = scene.box.width(), h = scene.box.height();
   StillFrame frame;

@@ -42,7 +42,7 @@ fs::path parent_of(const fs::path& path) {
   return parent.empty() ? fs::path(".") : parent;
 }
 
-/// Where `path` really is: links followed, no trailing slash; it need not exist.
+/// The real path of `path`: links resolved, no trailing slash; it need not exist.
 fs::path real_place(const fs::path& path) {
   std::error_code error;
   fs::path place = fs::weakly_canonical(fs::absolute(path), error);
@@ -50,7 +50,7 @@ fs::path real_place(const fs::path& path) {
   return place.has_filename() ? place : place.parent_path();
 }
 
-/// A name beside `target` that nobody else uses, tried with `make` until it does not exist yet.
+/// An unused name next to `target`, tried with `make` until it does not exist yet.
 template <class Make>
 fs::path unused_sibling(const fs::path& target, const Make& make) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
@@ -62,7 +62,7 @@ fs::path unused_sibling(const fs::path& target, const Make& make) {
   throw file_error(target, "find a temporary name beside", EEXIST);
 }
 
-/// Makes a rename in `folder` last through a power cut. Some file systems cannot: that is no error.
+/// Makes a rename in `folder` survive a power cut. Some file systems cannot do this; that is not an error.
 void sync_folder(const fs::path& folder, const DiskCalls& calls) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -70,7 +70,7 @@ void sync_folder(const fs::path& folder, const DiskCalls& calls) {
   ::close(descriptor);
 }
 
-/// Swaps two folders in one step where the system can. False: it cannot.
+/// Swaps two folders atomically if the system supports it; otherwise returns false.
 bool exchange([[maybe_unused]] const fs::path& a, [[maybe_unused]] const fs::path& b) {
 #ifdef RENAME_EXCHANGE
   return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
@@ -79,7 +79,7 @@ bool exchange([[maybe_unused]] const fs::path& a, [[maybe_unused]] const fs::pat
 #endif
 }
 
-/// Swaps them by three renames, undone if one fails.
+/// Swaps them by three renames, which are undone if one fails.
 void exchange_in_steps(const fs::path& fresh, const fs::path& target) {
   const fs::path aside = fresh.string() + ".old";
   if (std::rename(target.c_str(), aside.c_str()) != 0) throw file_error(target, "replace", errno);
@@ -91,7 +91,7 @@ void exchange_in_steps(const fs::path& fresh, const fs::path& target) {
   if (std::rename(aside.c_str(), fresh.c_str()) != 0) throw file_error(aside, "rename", errno);
 }
 
-/// Moves what only the old folder has into the new one. False if something had to stay behind.
+/// Moves entries that only the old folder has into the new one. False if something could not be moved.
 bool move_strangers(const fs::path& from, const fs::path& to) {
   std::error_code unreadable;
   bool all = true;
@@ -106,7 +106,7 @@ bool move_strangers(const fs::path& from, const fs::path& to) {
   return all && !unreadable;
 }
 
-/// Pipes, terminals and devices cannot be replaced by renaming: write into them.
+/// Pipes, terminals and devices cannot be replaced by renaming, so they are written to directly.
 bool is_special(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

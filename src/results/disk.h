@@ -1,4 +1,4 @@
-// Writing to disk so that a reader sees the old content or the new, never a half: temporary sibling, sync, rename.
+// Writing to disk so that a reader sees either the old content or the new, never half of it: temporary sibling, sync, rename.
 #pragma once
 
 #include <sys/types.h>
@@ -13,7 +13,7 @@
 
 namespace pintle {
 
-/// The system calls that can fail when a disk is full or broken; tests put failing ones here.
+/// The system calls that can fail when a disk is full or broken; tests substitute failing ones.
 struct DiskCalls {
   std::function<ssize_t(int, const void*, size_t)> write;  ///< as write(2)
   std::function<int(int)> sync;                            ///< as fsync(2)
@@ -23,10 +23,10 @@ struct DiskCalls {
 /// A FileError that names the path, the system's reason and what to try.
 FileError file_error(const std::filesystem::path& path, std::string_view doing, int error_number);
 
-/// A new file, buffered. Nothing is promised until close() has returned.
+/// A new file, buffered. Nothing is guaranteed until close() has returned.
 class NewFile {
  public:
-  /// Errors name `shown`, if given: what `path` is to become.
+  /// Errors name `shown`, if given: the final name of `path`.
   NewFile(const std::filesystem::path& path, const DiskCalls& calls, const std::filesystem::path& shown = {});
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
@@ -44,8 +44,8 @@ class NewFile {
   int descriptor_ = -1;
 };
 
-/// A folder that is filled under a temporary name and appears under its own by publish(). Destroyed before that, it
-/// leaves no trace.
+/// A folder that is filled under a temporary name and appears under its final name on publish(). If destroyed before that,
+/// it leaves no trace.
 class NewFolder {
  public:
   NewFolder(const std::filesystem::path& target, const DiskCalls& calls);
@@ -54,7 +54,7 @@ class NewFolder {
   ~NewFolder();
 
   const std::filesystem::path& path() const { return path_; }  ///< the temporary one, to write files into
-  /// Takes the target's place; entries of the old target that the new folder does not have are moved over, but for those that are `outdated`.
+  /// Replaces the target; entries of the old target that the new folder lacks are moved over, except those that are `outdated`.
   void publish(const std::vector<std::string>& outdated = {});
 
  private:
@@ -63,8 +63,8 @@ class NewFolder {
   bool published_ = false;
 };
 
-/// A file that is written under a temporary name beside its own and takes its place by publish(). Destroyed before that, it
-/// leaves no trace. Throws FileError where the target is a folder.
+/// A file that is written under a temporary name next to its target and replaces it on publish(). If destroyed before that,
+/// it leaves no trace. Throws FileError if the target is a folder.
 class Replacement {
  public:
   explicit Replacement(const std::filesystem::path& target, const DiskCalls& calls = {});
@@ -72,9 +72,9 @@ class Replacement {
   Replacement& operator=(const Replacement&) = delete;
   ~Replacement();
 
-  const std::filesystem::path& target() const { return shown_; }  ///< as it was given
-  const std::filesystem::path& fresh() const { return fresh_; }   ///< where to write; there is no such file yet
-  void publish();                                                 ///< links are followed, the old file's mode stays
+  const std::filesystem::path& target() const { return shown_; }  ///< as given
+  const std::filesystem::path& fresh() const { return fresh_; }   ///< the path to write to; no such file exists yet
+  void publish();                                                 ///< links are followed, and the old file's mode is kept
 
  private:
   std::filesystem::path shown_, target_, fresh_;
@@ -82,7 +82,7 @@ class Replacement {
   bool published_ = false;
 };
 
-/// Writes `text` to `path` in one atomic replacement; straight through where `path` is a pipe or a device.
+/// Writes `text` to `path` in one atomic replacement, or directly if `path` is a pipe or a device.
 void write_file(const std::filesystem::path& path, std::string_view text, const DiskCalls& calls = {});
 
 /// The file, or its first `at_most` bytes. Throws FileError.

@@ -12,7 +12,7 @@ std::size_t place_of(const JointEvents& joint, std::string_view name) {
 
 // The column of the approach speed; a joint with stops and a contact has two of these, a guide one for each end.
 std::size_t approach_of(const JointEvents& joint, const std::string& what) {
-  if (what.find("touch") == std::string::npos) return joint.columns.size();  // surfaces that slip have approached long before
+  if (what.find("touch") == std::string::npos) return joint.columns.size();  // surfaces that slip were already in contact
   if (what.ends_with(" stop")) return place_of(joint, "stop_approach_speed");
   const std::size_t of_end = place_of(joint, "approach_speed_" + what.substr(0, what.find(' ')));
   return of_end < joint.columns.size() ? of_end : place_of(joint, "approach_speed");

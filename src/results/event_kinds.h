@@ -1,4 +1,4 @@
-// What joints have gone through in a run, by kind of event.
+// The events of joints in a run, by kind.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-/// By joint and by what happened, in the order of the first time. Of a run that was read back, as it was written.
+/// By joint and by what happened, ordered by first occurrence. For a run that was read back, the same as when it was written.
 std::vector<EventKind> kinds_of_events(const Trajectory& run);
 
 }  // namespace pintle

@@ -6,10 +6,10 @@
 namespace pintle {
 namespace {
 
-constexpr double kNoHeat = 1e-6;      // of the energy that moves
-constexpr double kRounding = 1e-12;   // of the energy that is stored: less is no motion
-constexpr double kRoundedHeat = 1e-10;  // of it: less is what rounding leaves in the account
-constexpr double kLittleHeat = 1e-3;  // of all that is lost
+constexpr double kNoHeat = 1e-6;      // fraction of the energy in motion
+constexpr double kRounding = 1e-12;   // fraction of the stored energy: below this there is no motion
+constexpr double kRoundedHeat = 1e-10;  // fraction of the stored energy: below this it is roundoff in the energy account
+constexpr double kLittleHeat = 1e-3;  // fraction of all losses
 
 double stored(const EnergyAccount& energy) { return std::max(std::abs(energy.potential_start), std::abs(energy.potential_end)); }
 

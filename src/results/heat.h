@@ -1,4 +1,4 @@
-// Which joints turn so much into heat that one would look at it.
+// Which joints generate enough heat to be worth listing.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace pintle {
 
-/// In their order; none where the run loses next to nothing of the energy that moves.
+/// In their order; none if the run loses a negligible part of its energy in motion.
 std::vector<const LoadSummary*> joints_with_heat(const Trajectory& run);
 
-/// What they and the dampers turn into heat. A joint whose stick spring is loaded when it comes to rest has less of it than none until it slips again; then the sum of all by their size, if that is more [J].
+/// The heat from joints and dampers [J]. A joint that comes to rest with its stick spring loaded has negative heat until it slips again; then the sum of all magnitudes applies, if it is larger.
 double heat_of_all(const Trajectory& run);
 
-/// Whether anything moves by more than the rounding of the energy that is stored: what a ratio to the kinetic energy needs.
+/// Whether the motion exceeds the roundoff of the stored energy, as a ratio to the kinetic energy requires.
 bool is_moving(const EnergyAccount& energy);
 
 }  // namespace pintle

@@ -22,7 +22,7 @@ bool holds_a_run(const fs::path& folder) {
   }
 }
 
-/// The summary has what each column is about; names and units must agree with the series.
+/// The summary states what each column is about; names and units must agree with those in the series.
 void check_columns(const std::vector<Column>& promised, const std::vector<Column>& found, const fs::path& series) {
   if (promised.size() != found.size())
     throw FileError(fmt::format("{}:1:1: found {} columns: {} lists {}.", series.string(), found.size(), kSummaryFile,
@@ -81,7 +81,7 @@ void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::pa
     model.close();
   }
   for (const ModelFile& file : stamp.model_files) write_model_file(fresh.path() / file.name, file.text, calls);
-  // What only the earlier run had, this one must not seem to have.
+  // Files that only the earlier run had must not appear to belong to this one.
   fresh.publish(holds_a_run(folder) ? std::vector<std::string>{kEventsFile, kTomlCopy, kJsonCopy} : std::vector<std::string>{});
 }
 

@@ -1,4 +1,4 @@
-// The run folder's files, with the system calls open to tests.
+// The run folder's files; tests can replace the system calls.
 #pragma once
 
 #include "pintle/results.h"
@@ -7,13 +7,13 @@
 namespace pintle {
 
 inline constexpr const char* kSeriesFile = "series.csv";
-inline constexpr const char* kEventsFile = "events.csv";  // where joints have any
+inline constexpr const char* kEventsFile = "events.csv";  // if joints have events
 inline constexpr const char* kSummaryFile = "summary.json";
 
-/// The copy of the model file, in its own form.
+/// The copy of the model file, in its original format.
 std::string model_file_of(const RunStamp& stamp);
 
-/// As write_run() in pintle/results.h, through `calls`.
+/// Like write_run() in pintle/results.h, but with `calls`.
 void write_run(const Trajectory& trajectory, const RunStamp& stamp, const std::filesystem::path& folder,
                Overwrite overwrite, const DiskCalls& calls);
 

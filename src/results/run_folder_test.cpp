@@ -26,7 +26,7 @@ std::string message_of(const std::function<void()>& action) {
   return "";
 }
 
-/// A disk with room for `n_bytes`.
+/// A disk with space for `n_bytes`.
 DiskCalls full_after(std::size_t n_bytes) {
   DiskCalls calls;
   calls.write = [room = n_bytes](int descriptor, const void* data, size_t size) mutable -> ssize_t {
@@ -57,7 +57,7 @@ TEST(RunFolder, KeepsTheFilesOfTheModel) {
   const sample::ScratchFolder scratch;
   RunStamp stamp = sample::stamp();
   stamp.model_files = {{"data/gas.csv", "sha256:" + sha256("1,2\n"), "1,2\n"}};
-  for (int i = 0; i < 2; ++i) write_run(sample::trajectory(), stamp, scratch / "run");  // the second one replaces the first
+  for (int i = 0; i < 2; ++i) write_run(sample::trajectory(), stamp, scratch / "run");  // the second replaces the first
   const RunRecord run = read_run(scratch / "run");
   ASSERT_EQ(run.stamp.model_files.size(), 1U);
   EXPECT_EQ(run.stamp.model_files[0].name, "data/gas.csv");
@@ -68,7 +68,7 @@ TEST(RunFolder, KeepsTheFilesOfTheModel) {
   EXPECT_NE(message_of([&] { read_model_file(scratch / "run", run.stamp.model_files[0]); }).find("has lost this file"), std::string::npos);
 }
 
-// Also in a folder that holds a file of the model.
+// Also if the folder holds a file of the model.
 TEST(RunFolder, LeavesFilesOfOthersInFoldersOfTheModel) {
   const sample::ScratchFolder scratch;
   RunStamp stamp = sample::stamp();

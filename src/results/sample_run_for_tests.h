@@ -1,4 +1,4 @@
-// A small made-up run, and a scratch folder, for the tests of this room and of the program.
+// A small invented run, and a scratch folder, for the tests of this room and of the program.
 #pragma once
 
 #include <unistd.h>
@@ -11,7 +11,7 @@
 
 namespace pintle::sample {
 
-/// A rocking force at one joint: n_rows rows over 0.5 s.
+/// An oscillating force at one joint: n_rows rows over 0.5 s.
 inline Trajectory trajectory(std::size_t n_rows = 51) {
   Trajectory result;
   result.columns = {{"t", "s", "time"},
@@ -76,7 +76,7 @@ inline RunStamp stamp() {
   return {"Four-bar, section 8", "four_bar.toml", "sha256:00", "0.1.0", "pintle run four_bar.toml"};
 }
 
-/// A fresh folder under the system's temporary one, gone at the end of the test.
+/// A new folder in the system's temporary folder, removed at the end of the test.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -97,7 +97,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// How many entries a folder has, hidden ones too.
+/// Number of entries in a folder, including hidden ones.
 inline std::size_t n_entries(const std::filesystem::path& folder) {
   std::size_t n = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++n;

@@ -67,7 +67,7 @@ void read_columns(CsvFields& reader, Trajectory& trajectory) {
   }
 }
 
-// The column before it that each one most likely repeats, but for the sign, as the force on the other body does, or that in axes which are the world's; itself: none.
+// For each column, the earlier one that it probably repeats but for the sign, such as the force on the other body, or in axes parallel to the world's; itself if none.
 std::vector<std::size_t> repeated_columns(const Trajectory& trajectory) {
   std::vector<std::size_t> repeats(trajectory.columns.size());
   std::map<double, std::size_t> first;
@@ -84,11 +84,11 @@ void write_series(const Trajectory& trajectory, const std::function<void(std::st
   append(header_row(trajectory, &Column::name));
   append(header_row(trajectory, &Column::unit));
   std::string row;
-  std::array<char, 32> number;  // the shortest text of a double has at most 24 characters
+  std::array<char, 32> number;  // a double needs at most 24 characters
   const std::size_t n_columns = trajectory.columns.size();
   const std::vector<std::size_t> repeats = repeated_columns(trajectory);
   struct Digits {
-    std::size_t begin, size;  // in the row, without the sign
+    std::size_t begin, size;  // within the row, without the sign
   };
   std::vector<Digits> digits(n_columns);
   for (std::size_t i = 0; i < trajectory.n_rows(); ++i) {
@@ -102,7 +102,7 @@ void write_series(const Trajectory& trajectory, const std::function<void(std::st
         row.append(row, digits[before].begin, digits[before].size);
         continue;
       }
-      // Straight into an array: two thirds of the work of an appending iterator.
+      // Formatting directly into an array takes two thirds of the time of an appending iterator.
       const char* end = fmt::format_to(number.data(), FMT_COMPILE("{}"), value);
       const std::size_t sign = number[0] == '-' ? 1 : 0, size = static_cast<std::size_t>(end - number.data());
       digits[j] = {row.size() + sign, size - sign};

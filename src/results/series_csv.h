@@ -1,4 +1,4 @@
-// series.csv: the columns of a trajectory, as RFC 4180 with two header rows, name and unit.
+// series.csv: the columns of a trajectory as RFC 4180, with two header rows for name and unit.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace pintle {
 
-/// Hands the table to `append`, piece by piece. Numbers are the shortest that read back to the same bits.
+/// Passes the table to `append` piece by piece. Each number is the shortest text that reads back to the same bits.
 void write_series(const Trajectory& trajectory, const std::function<void(std::string_view)>& append);
 
-/// Fills columns (name and unit) and values from `text`. Throws FileError with line and column of `path`.
+/// Fills columns (name and unit) and values from `text`. Throws FileError with line and column in `path`.
 void read_series(std::string_view text, const std::filesystem::path& path, Trajectory& trajectory);
 
-/// events.csv: what the laws of joints went through, by joint and in the order of time; a column for each number that one of them reports, empty where it is
-/// another's. Two header rows, name and unit.
+/// events.csv: the events of joint laws, by joint and in the order of time; with a column for each number that any law reports, empty where another law
+/// reports it. Two header rows, name and unit.
 void write_events(const Trajectory& trajectory, const std::function<void(std::string_view)>& append);
 
 }  // namespace pintle

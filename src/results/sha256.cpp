@@ -47,7 +47,7 @@ void digest(std::string_view block, std::array<Word, 8>& state) {
   for (std::size_t i = 0; i < 8; ++i) state[i] += sum[i];
 }
 
-/// What is left after the whole blocks, with the padding and the length in bits.
+/// The remainder after the whole blocks, with the padding and the length in bits.
 std::string last_blocks(std::string_view rest, std::uint64_t n_bytes) {
   std::string padded(rest);
   padded += '\x80';

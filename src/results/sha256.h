@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4), to name the input that a run came from.
+// SHA-256 (FIPS 180-4), to identify the input of a run.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kMarker = "pintle_run";  // its value is the format's number
+constexpr const char* kMarker = "pintle_run";  // its value is the version of the format
 constexpr int kRunFormat = 1;
 
 constexpr std::array<std::pair<Outcome, const char*>, 7> kOutcomes{{
@@ -30,7 +30,7 @@ constexpr std::array<std::pair<Outcome, const char*>, 7> kOutcomes{{
     {Outcome::kEnergyOpen, "energy_open"},
 }};
 
-// One text per structure serves both directions: `visit(key, member)` stores into JSON or loads from it.
+// One function per structure serves both directions: `visit(key, member)` stores into JSON or loads from it.
 
 template <class Load, class Visit>
 void for_each_entry(Load& load, const Visit& visit) requires requires {
@@ -245,7 +245,7 @@ void load(const Json& json, T& value) {
   json.get_to(value);
 }
 
-// Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; those of 0.2 have no events, horizons, heat and wear.
+// Runs of version 0.1 from before ideal joints lack "unique", and older ones the error of couples; those of 0.2 lack events, horizons, heat and wear.
 bool is_newer(std::string_view key) {
   constexpr std::array kNewer{"unique", "heat", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter", "bush_depth", "bush_depth_angle"};
   return std::any_of(kNewer.begin(), kNewer.end(), [key](const char* newer) { return key == newer; });
@@ -280,7 +280,7 @@ Summary summary_from(const Json& json) {
   Summary summary;
   Trajectory& trajectory = summary.run.trajectory;
   from_json(json, summary.run.stamp);
-  if (json.contains("overrides")) load(json.at("overrides"), summary.run.stamp.overrides);  // not in runs of version 0.1
+  if (json.contains("overrides")) load(json.at("overrides"), summary.run.stamp.overrides);  // absent in runs of version 0.1
   if (json.contains("model_files")) from_json(json.at("model_files"), summary.run.stamp.model_files);
   trajectory.outcome = outcome_from(json.at("outcome").get<std::string>());
   load(json.at("message"), trajectory.message);
@@ -295,7 +295,7 @@ Summary summary_from(const Json& json) {
   from_json(json.at("joints"), trajectory.joints);
   from_json(json.at("springs"), trajectory.springs);
   from_json(json.at("motors"), trajectory.motors);
-  if (json.contains("bearings")) from_json(json.at("bearings"), trajectory.bearings);  // not in runs of version 0.2
+  if (json.contains("bearings")) from_json(json.at("bearings"), trajectory.bearings);  // absent in runs of version 0.2
   if (json.contains("events")) from_json(json.at("events"), trajectory.event_kinds);
   if (json.contains("wear")) from_json(json.at("wear"), trajectory.wear);
   if (json.contains("duty")) from_json(json.at("duty"), trajectory.duty);

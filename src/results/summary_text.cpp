@@ -1,4 +1,4 @@
-// The summary for people.
+// The summary of a run as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Style {
 constexpr std::size_t kFull = 200;  // a longer list is cut to its largest entries
 constexpr std::size_t kCut = 20;
 
-/// The entries to print, in their order: all, or of a long list the largest by `size`.
+/// The entries to print, in their order: all of them, or if the list is long, the largest by `size`.
 template <class Entry, class Size>
 std::vector<const Entry*> shown(const std::vector<const Entry*>& all, const Size& size) {
   if (all.size() <= kFull) return all;
@@ -51,7 +51,7 @@ std::string rest_line(std::size_t n) {
 
 double size_of(const LoadSummary& load) { return std::max(std::abs(load.peak), std::abs(load.peak_moment)); }
 
-/// Seconds with the prefix that suits them.
+/// Seconds with a suitable prefix.
 std::string duration_text(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
   if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);

@@ -57,8 +57,7 @@ TEST(SummaryText, MarksJointsBeyondTheTolerance) {
   EXPECT_NE(summary_text(trajectory, {}).find("exceeds the tolerance"), std::string::npos);
 }
 
-// A run that was stopped before its second integration knows no errors: they are not zero.
-// Of a chaotic motion: what is not promised is marked.
+// For a chaotic motion, peaks that are not promised are marked.
 TEST(SummaryText, MarksPeaksBehindTheHorizon) {
   Trajectory run = sample::trajectory();
   run.outcome = Outcome::kHorizon;
@@ -68,6 +67,7 @@ TEST(SummaryText, MarksPeaksBehindTheHorizon) {
   EXPECT_NE(summary_text(run, sample::stamp()).find("~ the peak comes after"), std::string::npos);
 }
 
+// A run that was stopped before its second integration has no error estimates: they are not zero.
 TEST(SummaryText, ErrorsThatWereNotEstimatedAreNoZeros) {
   Trajectory trajectory = sample::trajectory();
   trajectory.outcome = Outcome::kInterrupted;
@@ -77,7 +77,7 @@ TEST(SummaryText, ErrorsThatWereNotEstimatedAreNoZeros) {
   EXPECT_EQ(text.find("exceeds the tolerance"), std::string::npos);
 }
 
-// Of the 2 J that are lost here. What a stiff joint loses to rounding is not listed, nor anything where next to nothing of the energy is lost.
+// Percentages of the 2 J lost here. What a stiff joint loses to roundoff is not listed, nor is any joint if the loss of energy is negligible.
 TEST(SummaryText, ListsTheJointsThatTurnWorkIntoHeat) {
   Trajectory trajectory = sample::trajectory();
   trajectory.energy.kinetic_peak = 10;
@@ -89,7 +89,7 @@ TEST(SummaryText, ListsTheJointsThatTurnWorkIntoHeat) {
   ASSERT_NE(at, std::string::npos) << text;
   EXPECT_NE(text.find("slide     1.5000           3.0000      0.75000", at), std::string::npos) << text.substr(at);
   EXPECT_EQ(text.substr(at, text.find("\n\n", at) - at).find("O4"), std::string::npos) << text.substr(at);
-  // What one joint has taken from its stick spring, another turns into heat: both are listed, as parts of what they are together.
+  // One joint turns into heat what another has taken from its stick spring: both are listed, as fractions of the sum of their magnitudes.
   trajectory.joints[0].heat = -2.5;
   trajectory.energy.dissipated = -1;
   const std::string both = summary_text(trajectory, {});
@@ -101,7 +101,7 @@ TEST(SummaryText, ListsTheJointsThatTurnWorkIntoHeat) {
   EXPECT_EQ(summary_text(trajectory, {}).find("Heat in joints"), std::string::npos);
 }
 
-// Of a joint that has stops and play: each kind of event has its own approach speed, and heat is that of its own events.
+// For a joint that has stops and clearance, each kind of event has its own approach speed and the heat of its own events.
 TEST(SummaryText, ListsEventsWithTheirFastestApproachAndMostHeat) {
   Trajectory run = sample::trajectory();
   run.events = {{"O2",

@@ -15,7 +15,7 @@ std::string blanks(std::size_t n) {
   return std::string(n, ' ');
 }
 
-/// Where the decimal point stands, or would.
+/// Position of the decimal point, or where it would be.
 std::size_t point(const std::string& number) {
   return std::min(number.find_first_of(".e"), number.size());
 }

@@ -1,4 +1,4 @@
-// Tables of text and numbers for the console: columns aligned, numbers at their decimal points.
+// Tables of text and numbers for the console: columns are aligned, numbers at their decimal points.
 #pragma once
 
 #include <string>
@@ -6,22 +6,22 @@
 
 namespace pintle {
 
-/// `x` with five significant digits, as an engineer writes it: fixed from 0.001 to a million, else with an exponent.
+/// `x` with five significant digits, as engineers write it: fixed from 0.001 to a million, else with an exponent.
 std::string engineering(double x);
 
-/// Two significant digits with an exponent: error estimates.
+/// Two significant digits with an exponent, for error estimates.
 std::string exponent(double x);
 
 class TextTable {
  public:
   enum class Align { kLeft, kNumber };
 
-  /// `unit` stands in brackets in the head; empty: none.
+  /// The header shows `unit` in brackets; empty: none.
   void add_column(std::string head, Align align, const std::string& unit = "");
   void add_row(std::vector<std::string> cells);
   bool empty() const { return rows_.empty(); }
 
-  /// The table indented by two blanks, the head between `bold` and `plain`.
+  /// The table indented by two spaces, with its header between `bold` and `plain`.
   std::string text(const std::string& bold = "", const std::string& plain = "") const;
 
  private:

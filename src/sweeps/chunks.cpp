@@ -27,7 +27,7 @@ std::vector<SampleResult> ChunkComputer::compute(std::uint64_t chunk, const std:
   const std::uint64_t first = chunk * kSamplesPerChunk, last = std::min(first + kSamplesPerChunk, plan_.size());
   std::vector<SampleResult> out(last - first);
   std::vector<Variant> variants;
-  std::vector<std::size_t> place;  // of each variant among the results
+  std::vector<std::size_t> place;  // index of each variant among the results
   for (std::uint64_t i = first; i < last; ++i) {
     try {
       variants.push_back({variants_.at(plan_.values(i)), i % check_every_ == 0});

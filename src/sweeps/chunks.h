@@ -1,4 +1,4 @@
-// The samples in chunks that never change: what is computed together does not depend on threads, machines or restarts.
+// The samples in fixed chunks: what is computed together does not depend on threads, machines or restarts.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace pintle {
 
 inline constexpr std::uint64_t kSamplesPerChunk = 16;
 
-/// Which chunks are still to be computed; asked by several threads.
+/// The chunks that remain to be computed; several threads take chunks from it.
 class ChunkQueue {
  public:
-  /// `done` says which samples there are already.
+  /// `done` tells which samples already exist.
   ChunkQueue(std::uint64_t n_samples, const std::function<bool(std::uint64_t)>& done);
   std::optional<std::uint64_t> next();
-  void close();  ///< nothing more is handed out
+  void close();  ///< no further chunks are handed out
 
  private:
   std::mutex mutex_;
@@ -29,13 +29,13 @@ class ChunkQueue {
   std::vector<bool> to_do_;
 };
 
-/// Computes chunks; one for each thread.
+/// Computes chunks; one per thread.
 class ChunkComputer {
  public:
   ChunkComputer(const SweepPlan& plan, const EnvelopeEngine& engine, ModelVariants variants, std::uint64_t check_every)
       : plan_(plan), engine_(engine), variants_(std::move(variants)), check_every_(check_every) {}
 
-  /// The results of all samples of a chunk, in order; empty if `keep_going` said no.
+  /// The results of all samples of a chunk, in order; empty if `keep_going` returned false.
   std::vector<SampleResult> compute(std::uint64_t chunk, const std::function<bool()>& keep_going);
 
  private:

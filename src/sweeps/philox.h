@@ -1,5 +1,5 @@
 // Philox4x32-10 (Salmon, Moraes, Dror, Shaw: Parallel random numbers: as easy as 1, 2, 3, SC'11): a random function of a counter
-// and a key, so that the numbers of a sample do not depend on who asked for what before.
+// and a key, so that the numbers of a sample do not depend on the order in which numbers are requested.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ constexpr PhiloxCounter philox(PhiloxCounter c, PhiloxKey k) {
   return c;
 }
 
-/// A number in the open interval from 0 to 1, of variable `stream` in sample `index`: one of 2^53, equally likely.
+/// A number in the open interval (0, 1), for variable `stream` in sample `index`: one of 2^53 equally likely values.
 constexpr double uniform_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
   const PhiloxCounter bits = philox({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32),
                                      static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(stream >> 32)},

@@ -1,4 +1,4 @@
-// The random numbers: the published vectors, and what equally likely numbers must be.
+// The random numbers: the published test vectors, and properties of a uniform distribution.
 #include "sweeps/philox.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-// Known answers of the authors' own program (Random123, kat_vectors, philox4x32 with 10 rounds).
+// Known answers from the authors' own program (Random123, kat_vectors, philox4x32 with 10 rounds).
 TEST(Philox, GivesThePublishedAnswers) {
   EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   constexpr std::uint32_t kOnes = 0xffffffff;
@@ -19,7 +19,7 @@ TEST(Philox, GivesThePublishedAnswers) {
             (PhiloxCounter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-// The largest distance of the empirical distribution from the even one exceeds 1.95 / sqrt(n) once in a thousand.
+// The largest distance of the empirical distribution from the uniform one exceeds 1.95 / sqrt(n) once in a thousand cases.
 TEST(Philox, NumbersAreEvenlySpread) {
   constexpr std::size_t kN = 20000;
   for (const std::uint64_t stream : {1ULL, 2ULL, 0xffffffffffffULL}) {

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t kMostSamples = 1'000'000'000;
 constexpr const char* kExample = "joint.A.stiffness=1e6..1e9:log:16, or =1e6,1e7,1e8";
 
-// The text of one --vary, piece by piece; an offset into it is where a complaint points to.
+// Reads the text of one --vary piece by piece; offsets into it locate complaints.
 class AxisReader {
  public:
   AxisReader(ModelReading& reading, const std::string& text, int source) : reading_(reading), text_(text), source_(source) {}
@@ -54,7 +54,7 @@ class AxisReader {
     reading_.complaints.add(spot(offset), text_.substr(0, text_.find('=')), in_quotes(text_), std::move(because), std::move(suggestion));
   }
 
-  // Pieces of the text by their ends.
+  // A piece of the text, given by its ends.
   struct Piece {
     std::size_t from, to;
   };
@@ -97,7 +97,7 @@ class AxisReader {
     return out;
   }
 
-  // A bare number takes the unit of the last piece, if that has one.
+  // A bare number takes the unit of the last piece, if it has one.
   std::vector<double> numbers(const std::vector<Piece>& pieces) {
     std::string unit;
     const std::string last = text_.substr(pieces.back().from, pieces.back().to - pieces.back().from);
@@ -145,7 +145,7 @@ class AxisReader {
   VariedKey key_;
 };
 
-// FNV-1a of the path: the same variable draws the same numbers, whatever else varies.
+// FNV-1a of the path: a variable draws the same numbers whatever else varies.
 std::uint64_t stream_of(const std::string& path) {
   std::uint64_t hash = 14695981039346656037ULL;
   for (const char c : path) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
@@ -193,9 +193,9 @@ void SweepPlan::count_points(const SweepRequest& request, ModelReading& reading,
   grid_points_ = static_cast<std::uint64_t>(points);
 }
 
-// Each variable's draws fill as many strata of equal probability, one each, in an order of their own.
+// Latin hypercube: each variable's draws occupy strata of equal probability, one draw per stratum, in an order of the variable's own.
 void SweepPlan::shuffle_strata() {
-  constexpr std::uint64_t kOtherStream = 0x5851F42D4C957F2DULL;  // not that of the values
+  constexpr std::uint64_t kOtherStream = 0x5851F42D4C957F2DULL;  // different from the stream of the values
   for (const std::uint64_t stream : streams_) {
     std::vector<std::uint32_t> order(samples_);
     std::iota(order.begin(), order.end(), 0U);

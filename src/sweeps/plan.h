@@ -1,4 +1,4 @@
-// The values of each sample: a grid of given values, and random samples at each of its points.
+// The values of each sample: a grid of given values, with random samples at each grid point.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,27 @@
 
 namespace pintle {
 
-/// A number that takes given values in turn [SI].
+/// A number that takes the given values in turn [SI].
 struct SweepAxis {
   std::string path, unit;
   std::vector<double> values;
 };
 
 /// Reads "joint.A.stiffness=1e6..1e9 N/m:log:16" or "joint.A.stiffness=1e6,2e6 N/m", the text of the document's source `source`;
-/// complains about what is wrong with it. A number without a unit has that of the last one, or is SI.
+/// complains about what is wrong with it. A number without a unit has the unit of the last number, or is SI.
 SweepAxis read_axis(ModelReading& reading, const std::string& text, int source);
 
 class SweepPlan {
  public:
   SweepPlan() = default;
-  /// Everything that is wrong with the request's own options is complained about; `reading` has read its model.
+  /// Complains about everything that is wrong with the request's own options; `reading` has already read the model.
   SweepPlan(const SweepRequest& request, ModelReading& reading, int first_source);
 
   std::uint64_t size() const { return grid_points_ * draws(); }
   std::vector<std::string> paths() const;
   std::vector<std::string> units() const;
-  /// The values of sample `i` [SI], in the order of the paths: grid points in order, each with its draws. A draw's values by chance
-  /// depend on the seed, the path and the draw's number alone.
+  /// The values of sample `i` [SI], in the order of the paths: grid points in order, each with its draws. The random values of a draw
+  /// depend only on the seed, the path and the draw's number.
   std::vector<double> values(std::uint64_t i) const;
   const std::vector<SweepAxis>& axes() const { return axes_; }
 

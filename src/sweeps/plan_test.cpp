@@ -1,4 +1,4 @@
-// Plans: what a user may write, in which order the samples come, and what is said about mistakes.
+// Plans: the notation for users, the order of the samples, and the complaints about mistakes.
 #include "sweeps/plan.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(SweepPlan, ALogarithmicRangeWantsOneSign) {
   EXPECT_TRUE(contains(text, "try: body.bob.angle=-1..2:lin:4\n")) << text;
 }
 
-// Numbers of simulate, of the defaults of joints, parameters, and of things with names.
+// Numbers in [simulate], in joint defaults, parameters, and in named things.
 TEST(SweepPlan, PathsLeadToNumbers) {
   EXPECT_EQ(plan_of(request({"defaults.joint.stiffness=1e6,2e6"})).values(1)[0], 2e6);
   EXPECT_EQ(plan_of(request({"simulate.tolerance=1e-4,1e-5"})).values(0)[0], 1e-4);
@@ -151,7 +151,7 @@ TEST(SweepPlan, VariationsOfTheFileAreChecked) {
   says(pin("distribution = \"uniform\"\nfrom = 1\nto = 2\nmean = 1\n"), "does not use it");
   says(pin("distribution = \"triangular\"\nfrom = 1\nto = 2\nmode = 3\n"), "between from and to");
   says(pin("distribution = \"normal\"\nmean = -1e8\ndeviation = 1e6\n"), "almost none");
-  says("[variation.\"joint.pin.clearance\"]\ndistribution = \"uniform\"\nfrom = 1\nto = 2\n", "clearance");  // of a law that the joint has not: nothing could be drawn
+  says("[variation.\"joint.pin.clearance\"]\ndistribution = \"uniform\"\nfrom = 1\nto = 2\n", "clearance");  // of a law that the joint does not have: nothing could be drawn
   says("[variation.\"joint.pn.stiffness\"]\ndistribution = \"uniform\"\nfrom = 1\nto = 2\n", "pin");
 }
 

@@ -30,7 +30,7 @@ constexpr std::array<double, 8> kF{1.0, 5.99832206555887937690e-1, 1.36929880922
 
 double normal_share(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-// A standard normal value between a and b. In the upper tail shares are close to 1, so it is mirrored.
+// A standard normal value between a and b. The upper tail is mirrored, because its probabilities are close to 1.
 double normal_between(double a, double b, double u) {
   if (a > 0) return -normal_between(-b, -a, 1 - u);
   const double low = normal_share(a), share = low + u * (normal_share(b) - low);

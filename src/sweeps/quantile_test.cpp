@@ -1,4 +1,4 @@
-// Distributions: quantiles undo their distribution functions; samples have the moments.
+// Distributions: quantiles invert their distribution functions; samples have the right moments.
 #include "sweeps/quantile.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ Moments moments_of(const Variation& v) {
   return m;
 }
 
-// Within four standard errors of the mean, which are deviation / sqrt(n).
+// Within four standard errors of the mean, each deviation / sqrt(n).
 void expect_moments(const Variation& v, double mean, double deviation) {
   const Moments m = moments_of(v);
   EXPECT_NEAR(m.mean, mean, 4 * deviation / std::sqrt(50000.0));
@@ -78,7 +78,7 @@ TEST(Quantile, CutOffDistributionsStayInside) {
   EXPECT_GE(upper.least, 5);
   EXPECT_LE(upper.most, 5.5);
   EXPECT_GT(upper.mean, 5.1);
-  EXPECT_LT(upper.mean, 5.2);  // falls off as exp(-5 x)
+  EXPECT_LT(upper.mean, 5.2);  // decays as exp(-5 x)
   EXPECT_GE(bell.least, 4);
   EXPECT_LE(bell.most, 6);
 }

@@ -9,17 +9,17 @@
 
 namespace pintle {
 
-/// Processes, perhaps on other machines, that compute for the one that writes.
+/// Processes, possibly on other machines, that compute for the process that writes.
 class Remote {
  public:
   virtual ~Remote() = default;
-  /// Gives chunks to those that ask, and returns what they have sent. Never waits.
+  /// Gives chunks to the processes that ask, and returns the results they have sent. Never waits.
   virtual std::vector<FinishedChunk> serve(ChunkQueue& queue) = 0;
-  /// Some process still computes or has not been told that nothing is left.
+  /// Whether some process is still computing or has not yet been told that nothing is left.
   virtual bool busy() const = 0;
 };
 
-/// `sweep`, with `remote` if it is not null.
+/// Like `sweep`, but with the help of `remote` if it is not null.
 SweepOutcome run_sweep(const SweepRequest& request, const SweepRun& run, const SweepObserver& observer, Remote* remote);
 
 }  // namespace pintle

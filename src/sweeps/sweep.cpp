@@ -1,4 +1,4 @@
-// Samples that are missing are computed and go to the journal; when it has all, the file is made of it.
+// Computes the missing samples and adds them to the journal; when it has all of them, the file is made from it.
 #include "pintle/sweep.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kBetweenReports = 0.1;  // [s]
-constexpr double kBetweenSyncs = 1;      // [s] of work that a power cut may cost
+constexpr double kBetweenSyncs = 1;      // of work [s] that a power cut may cost
 constexpr double kShortWait = 1e-3, kLongWait = 5e-2;  // [s] with other processes to serve, and without
 
 class Collection {
@@ -26,7 +26,7 @@ class Collection {
       : job_(job), journal_(journal), observer_(observer), remote_(remote), resumed_(journal.n_done()),
         queue_(job.plan().size(), [&journal](std::uint64_t i) { return journal.has(i); }) {}
 
-  /// True when the journal has every sample.
+  /// True if the journal has every sample at the end.
   bool run(int threads) {
     WorkerPool pool(job_, threads, [this] { return queue_.next(); });
     while (true) {
@@ -39,7 +39,7 @@ class Collection {
       }
       if (!pool.idle()) continue;
       if (remote_ == nullptr || !remote_->busy()) break;
-      std::this_thread::sleep_for(std::chrono::duration<double>(kShortWait));  // for the others
+      std::this_thread::sleep_for(std::chrono::duration<double>(kShortWait));  // lets the other processes compute
     }
     journal_.flush(true);
     report();
@@ -49,14 +49,14 @@ class Collection {
   SweepProgress progress() const { return {journal_.n_done(), journal_.n_samples(), resumed_, journal_.n_troubled(), watch_.seconds()}; }
 
  private:
-  // A chunk is computed as a whole; of one that was cut in two by a kill, only the missing samples are added.
+  // A chunk is computed as a whole; if a kill had split it, only the missing samples are added.
   void keep(const std::vector<FinishedChunk>& finished) {
     for (const FinishedChunk& chunk : finished)
       for (std::size_t k = 0; k < chunk.results.size(); ++k) {
         const std::uint64_t sample = chunk.chunk * kSamplesPerChunk + k;
         if (!journal_.has(sample)) journal_.add(sample, chunk.results[k]);
       }
-    if (!finished.empty()) journal_.flush(false);  // a kill costs nothing that is finished
+    if (!finished.empty()) journal_.flush(false);  // a kill costs no finished work
   }
 
   void sync_now_and_then() {
@@ -85,7 +85,7 @@ class Collection {
   bool stopped_ = false;
 };
 
-// Whether `file` already is what was asked for. Throws if it is something else.
+// Whether `file` already contains the requested result. Throws if it is something else.
 bool finished_before(const fs::path& file, const std::string& plan, bool force) {
   if (force || !fs::exists(file)) return false;
   if (fs::is_directory(file)) throw file_error(file, "write", EISDIR);
@@ -105,7 +105,7 @@ SweepOutcome run_sweep(const SweepRequest& request, const SweepRun& run, const S
   const std::uint64_t n = job.plan().size();
   if (finished_before(run.out, job.hash(), run.force)) {
     std::error_code ignored;
-    fs::remove(journal_path, ignored);  // killed between the two
+    fs::remove(journal_path, ignored);  // killed between writing the file and removing the journal
     return {SweepEnd::kFinishedBefore, {n, n, n, 0, 0}};
   }
   Journal journal(journal_path, job.hash(), n, run.force);

@@ -38,14 +38,14 @@ FileText files_of(const SweepRequest& request) {
   throw InputError({document.complaint({0, 1, 1}, std::move(path), std::move(found), std::move(because), std::move(suggestion))});
 }
 
-// Series need the same output times in every sample. Both ends of what varies are tried.
+// Series need the same output times in every sample. Checked at both ends of what varies.
 void check_times(const Document& document, const SweepPlan& plan, const Model& base, ModelVariants variants) {
   for (const std::uint64_t sample : {std::uint64_t{0}, plan.size() - 1}) {
     SimulateSettings other;
     try {
       other = variants.at(plan.values(sample)).simulate;
     } catch (const InputError&) {
-      continue;  // will be a result of its own
+      continue;  // will be a result in its own right
     }
     if (other.duration != base.simulate.duration || other.output_step != base.simulate.output_step)
       refuse(document, "simulate", fmt::format("sample {} lasts {:g} s", sample, other.duration),

@@ -1,4 +1,4 @@
-// Everything that the processes and threads of a sweep derive from the request, identical in all of them.
+// Everything that the processes and threads of a sweep derive from the request; identical in all of them.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@ namespace pintle {
 
 class SweepJob {
  public:
-  /// Throws InputError with everything that is wrong with model, plan and chosen series.
+  /// Throws InputError with everything that is wrong with the model, the plan and the chosen series.
   explicit SweepJob(const SweepRequest& request);
 
   const SweepPlan& plan() const { return plan_; }
-  /// SHA-256 of all that the results depend on, the program's version among it.
+  /// SHA-256 of everything that the results depend on, including the program's version.
   const std::string& hash() const { return origin_.plan; }
   SweepOrigin origin(const std::string& command) const;
   ChunkComputer computer() const { return {plan_, *engine_, *variants_, origin_.check_every}; }

@@ -1,4 +1,4 @@
-// A pendulum whose pin and length vary, and requests to sweep it.
+// A pendulum with variable pin and length, and requests to sweep it.
 #pragma once
 
 #include <string>

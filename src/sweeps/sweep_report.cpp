@@ -28,23 +28,23 @@ std::size_t count_of(const SweepTable& table, SampleStatus status) {
   return static_cast<std::size_t>(std::count(table.status.begin(), table.status.end(), static_cast<std::uint8_t>(status)));
 }
 
-// Whether its peaks are those of the whole run: of a chaotic motion they are one draw of what it may do.
+// Whether its peaks are those of the whole run; for a chaotic motion they are one random outcome of many.
 bool has_peaks(std::uint8_t status) {
   constexpr std::array kWhole{SampleStatus::kCompleted, SampleStatus::kToleranceNotMet, SampleStatus::kHorizon};
   return std::find(kWhole.begin(), kWhole.end(), static_cast<SampleStatus>(status)) != kWhole.end();
 }
 
-// The smallest value that at least this share of the sorted ones does not exceed.
+// The smallest of the sorted values that at least this fraction of them does not exceed.
 double at_share(const std::vector<double>& sorted, double share) {
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
   return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
 }
 
-// Of a sample, over its joints.
+// The largest peak force over the joints of a sample.
 double largest_peak(const SweepTable& table, std::size_t sample) {
   const std::size_t n = table.joints.size();
   double largest = 0;
-  for (std::size_t j = 0; j < n; ++j) largest = std::fmax(largest, table.force[sample * n + j]);  // fmax passes over what is not known
+  for (std::size_t j = 0; j < n; ++j) largest = std::fmax(largest, table.force[sample * n + j]);  // fmax ignores unknown values (NaN)
   return largest;
 }
 
@@ -78,7 +78,7 @@ std::string values_text(const SweepTable& table, std::size_t sample) {
 
 std::string known(double x) { return std::isfinite(x) ? engineering(x) : "-"; }
 
-// Its first line; also the second, where the first ends with a colon.
+// The first line of a message; also the second, if the first ends with a colon.
 std::string start_of(const std::string& message) {
   const std::size_t end = message.find('\n');
   if (end == std::string::npos || end == 0 || message[end - 1] != ':') return message.substr(0, end);

@@ -1,4 +1,4 @@
-// Whole sweeps: the file is that of single runs, and the same to the last bit on any number of threads and after any stop.
+// Whole sweeps: the file agrees with single runs, and is the same to the last bit on any number of threads and after any interruption.
 #include "pintle/sweep.h"
 
 #include <fmt/format.h>
@@ -59,7 +59,7 @@ TEST_F(SlowSweep, HoldsWhatSingleRunsGive) {
   }
 }
 
-// What a thread has finished before it throws is taken first.
+// Chunks that a thread has finished before it throws are collected first.
 TEST_F(SlowSweep, AFaultInAThreadLosesNoFinishedChunk) {
   const SweepJob job(draws(100));
   std::atomic<int> given = 0;
@@ -117,7 +117,7 @@ TEST_F(SlowSweep, AFinishedFileIsKept) {
   EXPECT_THROW(read_sweep(folder_ / "b.h5"), FileError);
 }
 
-// The pin at 1.2 m with a held bob at 1 m is a joint that cannot close.
+// With the pin at 1.2 m and the bob held at 1 m, the joint cannot close.
 TEST_F(SlowSweep, SamplesThatFailAreResults) {
   SweepRequest r = sample::request({"parameters.gap=0,0.2,-2"});
   r.model_text.replace(r.model_text.find("[simulate]"), 0, "gap = \"0 m\"\nheavy = \"1 kg*(1 + gap/(1 m))\"\n");
@@ -139,7 +139,7 @@ TEST_F(SlowSweep, SamplesThatFailAreResults) {
   EXPECT_TRUE(sample::contains(text, "cannot be assembled from the stated positions: joint pin (revolute) stays open by 0.2 m")) << text;
 }
 
-// Chaos is no failure: the peaks are there, without an error where nobody knows it.
+// Chaos is not a failure: the peaks are kept, without an error where it is unknown.
 TEST_F(SlowSweep, AChaoticSampleKeepsItsPeaks) {
   SweepRequest r;
   r.model_name = "double_pendulum.toml";
@@ -163,7 +163,7 @@ SweepTable table_of(std::size_t n) {
   table.joints = {"pin"};
   for (std::size_t i = 0; i < n; ++i) {
     table.values.push_back(1e6 * static_cast<double>(i + 1));
-    table.force.push_back(static_cast<double>((i * 37) % n + 1));  // 1 to n in disorder
+    table.force.push_back(static_cast<double>((i * 37) % n + 1));  // 1 to n in scrambled order
     table.error.push_back(1e-3);
     table.time.push_back(0);
     table.moment.push_back(0);
@@ -185,7 +185,7 @@ TEST(SweepReport, StatisticsAreThoseOfTheSamples) {
   EXPECT_DOUBLE_EQ(s.worst_error, 1e-3);
 }
 
-// What carries nothing is measured as in a run: by a part of what others carry.
+// The error of a joint without load is measured as in a run: relative to a fraction of what other joints carry.
 TEST(SweepReport, AnErrorOfAJointThatCarriesNothingIsMeasuredByTheOthers) {
   SweepTable table = table_of(2);
   table.joints = {"pin", "lift"};
@@ -195,7 +195,7 @@ TEST(SweepReport, AnErrorOfAJointThatCarriesNothingIsMeasuredByTheOthers) {
   EXPECT_DOUBLE_EQ(peak_statistics(table)[1].worst_error, 8.6e-14 / (1e-4 * 50));
 }
 
-// Peaks of a chaotic motion are one draw of what it may do; those of a run that broke off are not the sample's.
+// Peaks of a chaotic motion are one random outcome; those of a run that failed are not the sample's.
 TEST(SweepReport, ChaoticSamplesCountAndBrokenOnesDoNot) {
   SweepTable table = table_of(3);
   for (const auto& [status, most] : {std::pair{SampleStatus::kHorizon, 3}, {SampleStatus::kToleranceNotMet, 3}, {SampleStatus::kRunaway, 2}, {SampleStatus::kEnergyOpen, 2}, {SampleStatus::kFailed, 2}}) {
@@ -218,7 +218,7 @@ TEST(SweepReport, PlotsOneOrTwoVaryingValues) {
   ASSERT_TRUE(sweep_plot(table));
   const Panel panel = sweep_plot(table)->panels[0];
   ASSERT_EQ(panel.curves.size(), 3u);
-  // Each curve has the samples of its own mass, in the order of the stiffness.
+  // Each curve has the samples of its own mass, ordered by stiffness.
   for (std::size_t mass = 0; mass < 3; ++mass) {
     ASSERT_EQ(panel.curves[mass].x.size(), 20u);
     for (std::size_t k = 0; k < 20; ++k) {
@@ -228,7 +228,7 @@ TEST(SweepReport, PlotsOneOrTwoVaryingValues) {
   }
 }
 
-// Of a message only its first line is shown; where that ends with a colon, the next one too.
+// Only the first line of a message is shown, and the next one too if the first ends with a colon.
 TEST(SweepReport, MessagesAreShortened) {
   SweepTable table = table_of(3);
   table.status = {3, 3, 3};

@@ -11,7 +11,7 @@ int usable_threads(int wanted) { return wanted > 0 ? wanted : std::max(1, static
 WorkerPool::WorkerPool(const SweepJob& job, int threads, std::function<std::optional<std::uint64_t>()> next) : next_(std::move(next)), working_(threads) {
   try {
     for (int i = 0; i < threads; ++i) threads_.emplace_back([this, computer = job.computer()]() mutable { work(std::move(computer)); });
-  } catch (...) {  // the destructor does not run
+  } catch (...) {  // because the destructor does not run
     end();
     throw;
   }

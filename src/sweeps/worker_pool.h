@@ -1,4 +1,4 @@
-// The threads of one process, each computing one chunk after the other.
+// The threads of one process, each computing one chunk after another.
 #pragma once
 
 #include <atomic>
@@ -20,22 +20,22 @@ struct FinishedChunk {
   std::vector<SampleResult> results;
 };
 
-/// As many as there are cores that this process may use.
+/// The number of cores that this process may use, unless `wanted` says otherwise.
 int usable_threads(int wanted);
 
 class WorkerPool {
  public:
-  /// Every thread calls `next` until it gives nothing. Throws what starting a thread or preparing its computer throws.
+  /// Every thread calls `next` until it returns nothing. Throws what starting a thread or preparing its computer throws.
   WorkerPool(const SweepJob& job, int threads, std::function<std::optional<std::uint64_t>()> next);
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
   ~WorkerPool();
 
-  /// What is finished since the last call; waits for it at most so long [s]. Rethrows what a thread threw, after everything that is finished has been taken.
+  /// The chunks finished since the last call; waits for one at most this long [s]. Rethrows an exception of a thread after all finished chunks have been taken.
   std::vector<FinishedChunk> take(double seconds);
-  /// No thread computes any more, and everything has been taken, nothing thrown among it.
+  /// No thread is computing any more, everything has been taken, and no thread has thrown.
   bool idle();
-  /// Batches under way are given up.
+  /// Batches under way are abandoned.
   void stop() { stopped_ = true; }
 
  private:

@@ -1,4 +1,4 @@
-// What a user can do to the whole: edit, undo, select, open. Every change of the text goes through `edit`.
+// User actions on the whole page: edit, undo, select, open. Every change of the text goes through `edit`.
 import { type Complaint, type Fault } from "./kernel/protocol";
 import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
@@ -8,7 +8,7 @@ import { removeThings } from "./model/removal";
 import { type Document, lineColumn } from "./model/toml";
 import { type Home, NO_RUN, type Origin, type StudioState, type ToolName, studio } from "./state";
 
-/** Faults of the text's form, found at once; the kernel finds the rest. */
+/** Faults in the form of the text, found at once; the kernel finds the rest. */
 export function localComplaints(document: Document): Complaint[] {
   return document.faults.map((fault) => ({
     severity: "error",
@@ -25,12 +25,12 @@ function follow(text: string): Partial<StudioState> {
   const faulty = read.document.faults.length > 0;
   const before = studio.get();
   if (faulty) return { stale: true, run: { ...before.run, status: "none", progress: null }, complaints: localComplaints(read.document) };
-  // The run is of the text before, until there is another.
+  // The run belongs to the previous text until there is a new one.
   const run = { ...before.run, status: read.bodies.length > 0 && before.kernelState !== "missing" ? ("running" as const) : ("none" as const), progress: null, fault: null };
   return { model: read, stale: false, run, poses: followPoses(before.model, read, before.poses), selection: before.selection.filter((thing) => exists(read, thing)) };
 }
 
-// Assembled poses stay until the kernel has new ones, but for bodies that the text has moved.
+// Assembled poses are kept until the kernel has new ones, except for bodies that the text has moved.
 function followPoses(before: Model, after: Model, poses: Poses | null): Poses | null {
   if (!poses) return null;
   const kept = new Map(poses);
@@ -63,13 +63,13 @@ export function exists(model: Model, { kind, name }: Thing): boolean {
   }
 }
 
-/** A step made from the text as it stands: by the editor, or a word that is replaced in it. */
+/** A step made from the current text: typing in the editor, or replacing a word. */
 export function editText(text: string, label: string, key = ""): void {
   const history = change(studio.get().history, text, label, key);
   if (history !== studio.get().history) studio.set({ history, ...follow(text) });
 }
 
-/** A step made from the model. While the text cannot be read the model is an older one, and the step would undo what was typed. */
+/** A step made from the model. While the text cannot be read, the model is an older one and the step would discard what was typed. */
 export function edit(text: string, label: string, key = ""): boolean {
   const { stale, complaints, toasts } = studio.get();
   if (!stale) {
@@ -82,7 +82,7 @@ export function edit(text: string, label: string, key = ""): boolean {
   return false;
 }
 
-/** A step that writes places. Where they are written with names of parameters, it is made only if that is wanted. */
+/** A step that writes positions. If it would replace expressions with parameters, it asks first. */
 export function place(text: string, label: string, key = ""): void {
   const { model, history } = studio.get();
   const gone = overwritten(model, text);
@@ -91,7 +91,7 @@ export function place(text: string, label: string, key = ""): void {
   say(`${gone.slice(0, 2).join(", ")}${gone.length > 2 ? ", …" : ""}: defined by parameters. Replace them with numbers?`, { label: "Replace", run });
 }
 
-/** A drawing step: the text, and what it made becomes the selection. */
+/** A drawing step: the text changes, and the new things become the selection. */
 export function drawn(made: Made, label: string): void {
   if (edit(made.text, label) && made.made.length > 0) studio.set({ selection: made.made });
 }
@@ -106,7 +106,7 @@ export function redo(): void {
   goTo(redoStep(history), history.future[0]?.key ?? "", 1);
 }
 
-// A step that opened another text changes its origin too; the origin that is left may have been saved since.
+// A step that opened another text also changes the origin; the origin being left may have been saved since.
 function goTo(history: History, key: string, side: 0 | 1): void {
   if (history === studio.get().history) return;
   const origins = opened.get(key);
@@ -115,20 +115,20 @@ function goTo(history: History, key: string, side: 0 | 1): void {
   if (origins) for (const listener of openedListeners) listener();
 }
 
-/** Origins on both sides of a step that opened another text, by the step's key. */
+/** Origins before and after a step that opened another text, by the step's key. */
 const opened = new Map<string, [Origin, Origin]>();
 let lastDocument = 0;
 
 export const newDocument = (): number => ++lastDocument;
 
-/** The key of a step from one text to another. */
+/** The key of a step that replaces one text by another. */
 export function openingKey(before: Origin, after: Origin): string {
   const key = `open${opened.size + 1}`;
   opened.set(key, [before, after]);
   return key;
 }
 
-/** What the text before a step was, where the step opened another. */
+/** The origin of the text before a step, if the step opened another text. */
 export const originBefore = (key: string): Origin | undefined => opened.get(key)?.[0];
 
 function originNow(): Origin {
@@ -136,7 +136,7 @@ function originNow(): Origin {
   return { document, fileName, home, savedText };
 }
 
-/** Notes where a text has been saved; another may be open by now. */
+/** Records that a text has been saved; another one may be open by now. */
 export function noteSaved(document: number, change: Omit<Origin, "document">): void {
   for (const origins of opened.values()) for (const origin of origins) if (origin.document === document) Object.assign(origin, change);
   if (studio.get().document === document) studio.set(change);
@@ -150,10 +150,10 @@ export function chooseTool(tool: ToolName): void {
   studio.set(tool === "select" ? { tool } : { tool, mode: "edit", playing: false });
 }
 
-/** What belongs to one model only. */
+/** State that belongs to a single model. */
 const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: null, tool: "select" };
 
-/** Another model in place of this one, which undo brings back. Without a home it is a new file: saving asks for its name. */
+/** Opens another model instead of this one; undo brings this one back. Without a home it is a new file: saving asks for its name. */
 export function openText(text: string, fileName: string, { home = null, savedText = text }: { home?: Home | null; savedText?: string } = {}): void {
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
@@ -172,14 +172,14 @@ export function openText(text: string, fileName: string, { home = null, savedTex
   for (const listener of openedListeners) listener();
 }
 
-/** A broken file opens as text, with what is wrong with it. */
+/** A faulty file opens as text, with its complaints. */
 export function showFaults(): void {
   if (studio.get().stale) studio.set({ side: "text", dock: "problems" });
 }
 
 const openedListeners = new Set<() => void>();
 
-/** Told when another model has been opened: the view fits it. */
+/** Calls the listener when another model has been opened, so that the view can fit it. */
 export function onOpened(listener: () => void): () => void {
   openedListeners.add(listener);
   return () => openedListeners.delete(listener);

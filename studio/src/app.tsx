@@ -1,4 +1,4 @@
-// The page: head, tools, drawing, panels.
+// The page: header, tools, drawing, panels.
 import { Suspense, lazy, useEffect } from "react";
 import { dismiss } from "./actions";
 import { listenToKeys } from "./commands";

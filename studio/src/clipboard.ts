@@ -1,13 +1,13 @@
-// Copy and paste: by the system's clipboard, so that links go from tab to tab; without it, within the page.
+// Copy and paste through the system's clipboard, so that links can be copied between tabs; without it, within the page.
 import { drawn, say } from "./actions";
 import { copyThings, pasteThings } from "./model/removal";
 import { type Model, extent } from "./model/model";
 import { studio } from "./state";
 
 let copied = "";
-/** How often it was pasted: each copy goes a step farther. */
+/** Number of pastes: each copy is shifted one step further. */
 let times = 0;
-/** Something else may have been copied since: the page has not had the focus all the time. */
+/** Something else may have been copied meanwhile, because the page has not had the focus all the time. */
 let away = true;
 
 export function copySelection(): string {
@@ -33,7 +33,7 @@ export async function paste(): Promise<void> {
   pasteCopied();
 }
 
-/** A copy beside the selection. */
+/** Makes a shifted copy of the selection. */
 export function duplicate(): void {
   if (copySelection()) pasteCopied();
 }

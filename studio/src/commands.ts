@@ -1,4 +1,4 @@
-// Everything that can be done, with its name and key: the palette, the shortcuts and the help sheet are made from this.
+// All commands with their names and keys: the palette, the shortcuts and the help sheet are generated from this.
 import { chooseTool, meshSelection, openText, place, redo, removeSelection, say, select, selectAll, undo } from "./actions";
 import { copySelection, duplicate, paste } from "./clipboard";
 import { isTyping, ownsKey } from "./controls";
@@ -132,7 +132,7 @@ function escape(): void {
   select([]);
 }
 
-// Goes through all things in the order of the text, so that the keyboard reaches each of them.
+// Cycles through all things in the order of the text, so that each can be reached from the keyboard.
 function cycle(direction: number): void {
   const { model, selection } = studio.get();
   const all = [
@@ -148,7 +148,7 @@ function cycle(direction: number): void {
   studio.set({ selection: [next], side: "properties" });
 }
 
-/** "mod+shift+Z" of an event, as the commands write it. */
+/** The key chord of an event, such as "mod+shift+Z", as the commands write it. */
 export function chordOf(event: KeyboardEvent): string {
   const parts: string[] = [];
   if (event.ctrlKey || event.metaKey) parts.push("mod");
@@ -179,7 +179,7 @@ export function listenToKeys(): () => void {
   return () => window.removeEventListener("keydown", listen);
 }
 
-/** "Ctrl Z" as it is printed on a key. */
+/** The chord as printed on keys: "Ctrl Z". */
 export function printChord(chord: string): string {
   if (chord === "+") return chord;
   const mac = /Mac/.test(navigator.platform);

@@ -1,8 +1,8 @@
-// Which keys a control of the page needs for itself; all others are the page's, whatever has the focus.
+// The keys that a focused control needs for itself; all others belong to the page, whatever has the focus.
 
 const TEXT_INPUTS = /^(text|search|number|url|email|tel|password|date|time)?$/;
 
-/** Text is typed there: every key is its own. */
+/** Whether the target is for typing text: then it needs every key. */
 export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.isContentEditable || target.tagName === "TEXTAREA") return true;
@@ -12,7 +12,7 @@ export function isTyping(target: EventTarget | null): boolean {
 const PRESSED = "button, a, summary, select, input[type=checkbox], input[type=radio], [role=tab], [role=slider]";
 const MOVED = "[role=tablist], [role=slider], [role=menu], .plot, table, input, select";
 
-/** The key presses the control or moves within it. */
+/** Whether the key operates the control or moves within it. */
 export function ownsKey(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof Element)) return false;
   if (key === " " || key === "Enter") return target.closest(PRESSED) !== null;

@@ -1,2 +1,2 @@
-// The first paint needs nothing but the page itself; all the rest comes at once behind it.
+// The first paint needs only the page itself; everything else is loaded right after it.
 void import("./start");

@@ -1,4 +1,4 @@
-// Begins the page: brings back what was there, starts kernel and clock, and draws.
+// Starts the page: restores the previous state, starts kernel and clock, and draws.
 import { createRoot } from "react-dom/client";
 import { editText, openText } from "./actions";
 import { App } from "./app";
@@ -15,7 +15,7 @@ import "./styles/layout.css";
 import "./styles/panels.css";
 import "./styles/scene.css";
 
-// For the browser tests, and for whoever is curious in the console.
+// For the browser tests and for use in the console.
 Object.assign(window, { pintleStudio: studio, pintleView: theView, pintleEdit: editText, pintleOpen: openText });
 restore();
 startAutosave();

@@ -1,4 +1,4 @@
-// All that the page knows, in one place. The text is the model; everything else about the mechanism follows from it.
+// The whole state of the page, in one place. The text is the model; everything else about the mechanism follows from it.
 import type { CheckReport, Complaint, Fault, RunAnswer, RunProgress } from "./kernel/protocol";
 import { type History, newHistory } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
@@ -19,7 +19,7 @@ export interface RunState {
   answer: RunAnswer | null;
   progress: RunProgress | null;
   fault: Fault | null;
-  /** Counts answers, so that whoever draws one knows that it is another. */
+  /** Counts answers, so that code that draws one can detect a new one. */
   serial: number;
 }
 
@@ -35,15 +35,15 @@ export interface WritableHandle {
   createWritable(): Promise<{ write(text: string): Promise<void>; close(): Promise<void> }>;
 }
 
-/** The file that the text is saved to without asking: one of this computer, or one in the folder of `pintle studio`. */
+/** The file to which the text is saved without asking: one on this computer, or one in the folder of `pintle studio`. */
 export type Home =
   | { kind: "handle"; handle: WritableHandle }
-  /** `hash` is of what the file held when it was read or written last. */
+  /** `hash` is that of the file's content when it was last read or written. */
   | { kind: "folder"; folder: string; path: string; hash: string };
 
-/** What goes with an opened text, and comes back with it when a step leads back to it. */
+/** Belongs to an opened text, and is restored with it when a step leads back to it. */
 export interface Origin {
-  /** Another number for each text that was opened. */
+  /** A different number for each opened text. */
   document: number;
   fileName: string;
   home: Home | null;
@@ -53,12 +53,12 @@ export interface Origin {
 export interface StudioState extends Origin {
   history: History;
   model: Model;
-  /** The text has faults; the drawing shows the last model that could be read. */
+  /** The text has faults; the drawing shows the last readable model. */
   stale: boolean;
-  /** Poses at the start, as assembled; of the bodies that the text has. */
+  /** Assembled poses at the start, for the bodies of the text. */
   poses: Poses | null;
   complaints: Complaint[];
-  /** Why it could not be assembled or run. */
+  /** Why the model could not be assembled or run. */
   obstacle: Fault | null;
   report: CheckReport | null;
   kernelState: "starting" | "ready" | "missing";
@@ -78,10 +78,10 @@ export interface StudioState extends Origin {
   theme: "light" | "dark";
   show: { labels: boolean; forces: boolean; grid: boolean; traces: boolean; centres: boolean };
   snapping: boolean;
-  /** Columns on the plot, by name; null until one chooses. */
+  /** Names of plotted columns; null until the user chooses some. */
   plotted: string[] | null;
   toasts: Toast[];
-  /** Of `pintle studio`, where the page comes from it. */
+  /** The folder of `pintle studio`, if it serves the page. */
   folder: { name: string; models: { path: string; size: number }[] } | null;
 }
 

@@ -1,4 +1,4 @@
-// A value that tells who looks at it when it changes.
+// A value that notifies its observers when it changes.
 import { useSyncExternalStore } from "react";
 
 export interface Store<T> {
@@ -26,7 +26,7 @@ export function createStore<T extends object>(start: T): Store<T> {
   };
 }
 
-/** A part of a store in a component; the part must be the same value while it has not changed. */
+/** Gives a component a part of a store; the part must stay the identical value while it has not changed. */
 export function useStore<T extends object, P>(store: Store<T>, part: (now: T) => P): P {
   return useSyncExternalStore(store.subscribe, () => part(store.get()));
 }

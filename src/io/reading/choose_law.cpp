@@ -15,14 +15,14 @@
 namespace pintle {
 namespace {
 
-/// "key=value" of the text, and where it begins [bytes].
+/// One "key=value" of the text, and where it begins [bytes].
 struct Piece {
   std::string key, value;
   std::size_t at = 0;
   bool whole = false;  // it has an equals sign
 };
 
-/// What stands between commas outside quotes and brackets.
+/// The pieces between commas, ignoring commas inside quotes and brackets.
 std::vector<Piece> pieces_of(const std::string& text) {
   std::vector<Piece> pieces;
   int depth = 0;
@@ -108,7 +108,7 @@ class LawChange {
     else table.append(key, key_spot, std::move(value));
   }
 
-  // Those that only the former law has.
+  // The keys that only the former law has.
   void leave_out_former_keys(Table& joint, LawRole role) {
     const LawInfo* former = find_law(former_);
     const auto stays = [&](std::string_view key) {

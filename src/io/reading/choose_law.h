@@ -6,10 +6,10 @@
 
 namespace pintle {
 
-/// The text of the source is "joint.NAME=law" and keys of this law behind commas: "joint.A=maxwell,branch_ratio=[1, 2],damping=2". A word of a
-/// friction law chooses the joint's friction, any other the law that holds it. Keys that the joint states for its former law stay where the
-/// new one has them and are left out where it has not; a note of the document says which. Complains where the joint or the law does not
-/// exist, or the law has no such key; whether it suits the joint is seen when the model is read.
+/// The source's text is "joint.NAME=law", followed by keys of this law after commas: "joint.A=maxwell,branch_ratio=[1, 2],damping=2". The name
+/// of a friction law chooses the joint's friction, any other name the law that holds the joint. Keys that the joint states for its former law are
+/// kept if the new law has them and dropped otherwise; a note of the document says which. Complains if the joint or the law does not exist,
+/// or if the law has no such key. Whether the law suits the joint is checked when the model is read.
 void choose_law(Document& document, int source, Complaints& complaints);
 
 }  // namespace pintle

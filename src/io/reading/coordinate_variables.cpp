@@ -1,4 +1,4 @@
-// What expressions of efforts and forces may read besides the time: coordinates of joints, places and rates of bodies and markers.
+// Variables of efforts and forces besides time: joint coordinates, positions and rates of bodies and markers.
 #include <set>
 
 #include "base/text/text_scanner.h"
@@ -21,7 +21,7 @@ void add_joint(const std::string& name, const std::string& type_word, Variables&
   variables.emplace_back(name + ".rate", type->free.front().angular ? kAngularSpeed : kLinearSpeed);
 }
 
-// Every name before a dot in the text. Big models have many joints, so only those that are mentioned become variables.
+// Every name before a dot in the text. Big models have many joints, so only those mentioned become variables.
 std::set<std::string> names_before_dots(std::string_view text) {
   const auto in_name = [](char c) { return is_word_part(c) || c == '-'; };
   std::set<std::string> names;
@@ -37,7 +37,7 @@ std::set<std::string> names_before_dots(std::string_view text) {
 
 void add_mentioned_joints(const ModelReading& reading, std::string_view text, Variables& variables) {
   constexpr std::size_t kFew = 100;
-  if (reading.type_of_joint.size() <= kFew) {  // all of them: suggestions for misspelt ones then work
+  if (reading.type_of_joint.size() <= kFew) {  // all of them: this allows suggestions for misspelt ones
     for (const auto& [name, type] : reading.type_of_joint) add_joint(name, type, variables);
     return;
   }
@@ -54,7 +54,7 @@ void add_place(const std::string& name, Variables& variables) {
   variables.emplace_back(name + ".spin", kAngularSpeed);
 }
 
-// Where a joint has the name of the body, the angle is the joint's.
+// If a joint and a body have the same name, the angle is the joint's.
 void add_mentioned_bodies(const ModelReading& reading, std::string_view text, Variables& variables) {
   const std::set<std::string> names = names_before_dots(text);
   for (const Body& body : reading.model.bodies) {

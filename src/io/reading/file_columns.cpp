@@ -32,7 +32,7 @@ std::optional<double> number_in(const std::string& cell) {
 
 bool is_comment(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos || line[line.find_first_not_of(" \t")] == '#'; }
 
-// A semicolon or a tab where the first line of the table has one.
+// A semicolon or a tab if the first line of the table has one.
 char separator_of(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));

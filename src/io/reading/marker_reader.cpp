@@ -1,4 +1,4 @@
-// Markers: a point and an axis, in Cartesian or in the paper's polar form.
+// Markers: a point and an axis, in Cartesian coordinates or in the paper's polar form.
 
 #include <cmath>
 #include <numbers>
@@ -28,7 +28,7 @@ const KeySpec* find_part(std::string_view key) {
   return nullptr;
 }
 
-// The unit vector at an angle; at whole quarter turns it is exact, as "180 deg" is meant.
+// The unit vector at an angle; exact at whole quarter turns, so that "180 deg" is exact.
 Vec2 direction(double angle) {
   constexpr double kQuarter = std::numbers::pi / 2;
   const double quarters = std::round(angle / kQuarter);

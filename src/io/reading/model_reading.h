@@ -18,13 +18,13 @@
 
 namespace pintle {
 
-/// A table of the model, as expressions call it, and its points [SI]; none: it was complained about.
+/// A table of the model: the function that expressions call, and its points [SI] (none if the table was complained about).
 struct NamedTable {
   ParseScope::Table in_scope;
   std::vector<double> x, y;
 };
 
-/// What the steps share.
+/// Data shared by the steps.
 struct ModelReading {
   explicit ModelReading(const Document& document, FileText files = {})
       : root(*document.root.table()), complaints(document), records(complaints), file_text(std::move(files)) {}
@@ -33,10 +33,10 @@ struct ModelReading {
   Complaints complaints;
   RecordReader records;
   Model model;
-  FileText file_text;                                                    // of the files that tables name; empty: there are none
+  FileText file_text;                                                    // text of the files that tables name; empty: no files
   std::map<std::string, NamedTable, std::less<>> tables;                 // by name
-  std::map<std::string, std::set<std::string>, std::less<>> markers_of;  // by body, "ground" among them
-  std::map<std::string, std::string, std::less<>> type_of_joint;         // by joint, also of joints with faults
+  std::map<std::string, std::set<std::string>, std::less<>> markers_of;  // by body, including "ground"
+  std::map<std::string, std::string, std::less<>> type_of_joint;         // by joint, including faulty joints
   std::map<std::string, TableSpec, std::less<>> specs;                   // assembled ones, by path and kind
 
   /// The assembled table of the schema, made once.
@@ -45,28 +45,28 @@ struct ModelReading {
 };
 
 void read_settings(ModelReading& reading);    // the file's head, [simulate]
-void read_parameters(ModelReading& reading);  // first: every other value may use them
-void read_tables(ModelReading& reading);      // [table]: the expressions of what follows may call them
+void read_parameters(ModelReading& reading);  // first: every other value may use parameters
+void read_tables(ModelReading& reading);      // [table]: the expressions read after it may call tables
 void read_bodies(ModelReading& reading);      // [ground], [body]
 void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
-/// Expressions may call `reading.tables` from then on.
+/// From then on, expressions may call `reading.tables`.
 void let_expressions_call_tables(ModelReading& reading);
-/// Expressions "of joints" then read coordinates of joints, bodies and markers.
+/// From then on, expressions "of joints" may read coordinates of joints, bodies and markers.
 void let_expressions_read_coordinates(ModelReading& reading);
 void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]
 void read_motors(ModelReading& reading);      // [motor]
 void check_record(ModelReading& reading);     // simulate.record, once bodies and joints are known
 
-/// All of these in their order, but for [variation]; complaints are collected.
+/// All of these in their order, except [variation]; complaints are collected.
 void read_all(ModelReading& reading);
 
 /// The table `key` of the document, or an empty one; complains if it is something else.
 const Table& section(ModelReading& reading, std::string_view key);
 
-/// Names of things are letters, digits, _ and -. Complains if this is none.
+/// Names of things consist of letters, digits, _ and -. Complains if this name does not.
 void check_name(ModelReading& reading, const Entry& entry, const std::string& path);
 
-/// The marker that `text` names: "crank.A". Complains, with `node` as the place, if there is none.
+/// The marker that `text` names: "crank.A". If there is none, complains with `node` as the place.
 MarkerRef read_marker_ref(ModelReading& reading, const Node& node, const std::string& path);
 
 /// The two markers of `between`; they must be on different bodies. `thing` is what connects them, for the message.

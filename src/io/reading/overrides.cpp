@@ -12,7 +12,7 @@
 namespace pintle {
 namespace {
 
-// The value after the equals sign, its spots moved to where it stands in the override.
+// Moves a value's spots to its place after the equals sign of the override.
 void move_spots(Node& node, int source, int shift) {
   node.spot = {source, node.spot.line, node.spot.column + shift};
   if (Array* array = std::get_if<Array>(&node.value)) {
@@ -40,7 +40,7 @@ std::vector<std::string> split_path(std::string_view path) {
   return parts;
 }
 
-// Whether the names below a section are the model's own.
+// Whether the names in a section are chosen by the model.
 bool chooses_names(const std::string& section) {
   if (section == "parameters") return true;
   const std::vector<std::string> children = Schema::model().children(section);
@@ -80,7 +80,7 @@ class Override {
   }
 
  private:
-  // An override changes what the file has: a new body, joint or parameter would be a misspelt one.
+  // An override changes what the file has: a new body, joint or parameter is taken for a misspelling.
   bool refuse_new_name(const Table& table, const std::vector<std::string>& parts, std::size_t i) {
     if (i != 1 || !chooses_names(parts[0])) return false;
     complain_of_unknown_name(complaints_, table, parts[0], parts[1], spot_);
@@ -131,7 +131,7 @@ Node read_override_value(const std::string& text, int source, int column) {
         return value;
       }
     } catch (const InputError&) {
-      // Not TOML: it is a string without its quotes.
+      // Not TOML: it is an unquoted string.
     }
   }
   Node node;

@@ -9,7 +9,7 @@ namespace {
 std::vector<Marker> read_markers(ModelReading& reading, const Entry& owner, const std::string& path,
                                  std::set<std::string>& names) {
   std::vector<Marker> markers;
-  if (owner.value.table() == nullptr) return markers;  // complained about by whoever reads the owner
+  if (owner.value.table() == nullptr) return markers;  // complained about where the owner is read
   const Node* node = owner.value.table()->find("markers");
   if (node == nullptr || !reading.records.is_table(*node, path + ".markers")) return markers;
   for (const Entry& entry : node->table()->entries()) {
@@ -23,7 +23,7 @@ std::vector<Marker> read_markers(ModelReading& reading, const Entry& owner, cons
   return markers;
 }
 
-// "x" and "y" need the position, "angle" the angle: there is nothing to hold otherwise.
+// "x" and "y" need the position, "angle" the angle: without it there is no value to hold.
 void read_hold(ModelReading& reading, const Record& record, Body& body) {
   const Value* hold = record.find("hold");
   if (hold == nullptr || hold->node == nullptr) return;
@@ -39,7 +39,7 @@ void read_hold(ModelReading& reading, const Record& record, Body& body) {
   }
 }
 
-// A start that has settled is at rest.
+// A settled start begins at rest.
 void check_at_rest(ModelReading& reading, const Record& record, const Body& body) {
   if (reading.model.simulate.start != Start::kSettled) return;
   const auto complain = [&](const std::string& key) {

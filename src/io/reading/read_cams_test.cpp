@@ -1,4 +1,4 @@
-// Cams and curved edges in model files: their profile, from an expression or a table, and every mistake.
+// Cams and curved edges in model files: their profiles, from expressions or tables, and every mistake.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST(ReadCams, AnExpressionOrATableIsTheLift) {
   EXPECT_FALSE(a.joints[0].cam == b.joints[0].cam);
 }
 
-// Straight lines have corners.
+// Linear interpolation has corners.
 TEST(ReadCams, ATableNeedsASmoothInterpolation) {
   const auto complaints = complaints_about_cam(cam_model("base_radius = 0.05\nlift = \"rise(angle)\"\n", "[table.rise]\nx = [0, 90, 180, 270]\nx_unit = \"deg\"\ny = [0, 2, 5, 2]\ny_unit = \"mm\"\nperiod = 360\n"));
   ASSERT_EQ(complaints.size(), 1U);
@@ -62,7 +62,7 @@ TEST(ReadCams, ATableNeedsASmoothInterpolation) {
   EXPECT_NE(complaints[0].suggestion.find("spline"), std::string::npos);
 }
 
-// @ stands before the character that is to be blamed.
+// @ precedes the character that the complaint should point at.
 struct CamMistake {
   const char* joint;
   const char* path;
@@ -103,7 +103,7 @@ TEST(ReadCams, MistakesAreLocatedAndExplained) {
   for (const CamMistake& mistake : mistakes) expect_complaint(cam_model(mistake.joint), mistake);
 }
 
-// Of a curved edge, whose table is complete but for what is tried.
+// Mistakes of a curved edge whose table is complete except for what each case tries.
 TEST(ReadEdges, MistakesAreLocatedAndExplained) {
   const std::string complete = "from = \"-1 m\"\nto = \"1 m\"\n";
   const std::vector<CamMistake> mistakes{

@@ -28,7 +28,7 @@ std::size_t linear_components(const JointTypeInfo& type) {
   return static_cast<std::size_t>(std::count_if(type.gap.begin(), type.gap.end(), linear));
 }
 
-// A word of the joint read ahead of the rest, because the keys depend on it; "" if it is missing or no string.
+// A word of the joint, read before the rest because the keys depend on it; "" if it is missing or not a string.
 std::string word_ahead(const Node& joint, std::string_view key) {
   const Node* node = joint.table() == nullptr ? nullptr : joint.table()->find(key);
   return node == nullptr || node->string() == nullptr ? std::string() : *node->string();
@@ -39,14 +39,14 @@ const LawInfo* law_of_role(std::string_view word, LawRole role) {
   return law != nullptr && law->role == role ? law : nullptr;
 }
 
-// That of the defaults, where the joint can have it.
+// The friction law of the defaults, if the joint can have it.
 const LawInfo* default_friction(const JointTypeInfo* type, const LawInfo* law, const Record& defaults) {
   if (type == nullptr || law == nullptr || !defaults.states("friction")) return nullptr;
   const LawInfo* friction = law_of_role(defaults.word("friction"), LawRole::kFriction);
   return friction != nullptr && suits(*friction, type->word) && !law->rubs ? friction : nullptr;
 }
 
-// In the joint's own words, or else that of the defaults, unless it is ideal.
+// The friction law that the joint states, or else that of the defaults, unless the joint is ideal.
 const LawInfo* friction_of(const Node& joint, const JointTypeInfo* type, const LawInfo* law, const Record& defaults) {
   if (joint.table() != nullptr && joint.table()->find("friction") != nullptr) return law_of_role(word_ahead(joint, "friction"), LawRole::kFriction);
   const LawInfo* friction = default_friction(type, law, defaults);
@@ -59,8 +59,8 @@ TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeI
                       const std::string& detent) {
   const std::string type_word(type == nullptr ? "" : type->word);
   const std::string law_word(law == nullptr ? "" : law->word);
-  // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have, and which
-  // keys a table stands for.
+  // spec() makes the specs and `reading` owns them, so they may be completed here: the number of entries of lists, and which
+  // keys a table supplies.
   TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction, stops, detent));
   for (KeySpec& key : spec.keys) {
     if (key.per_component && type != nullptr) key.count = linear_components(*type);
@@ -72,18 +72,18 @@ TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeI
   return spec;
 }
 
-// A joint of a wrong type or law: its keys cannot be judged, but what belongs to all joints can.
+// A joint of invalid type or law: its keys cannot be judged, but what all joints share can.
 void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::string& path) {
   TableSpec spec = reading.spec("joint.*");
   for (KeySpec& key : spec.keys)
-    if (key.per_component) key.type = ValueType::kMarker;  // read as nothing: how long its list may be is not known
+    if (key.per_component) key.type = ValueType::kMarker;  // value skipped: the allowed length of its list is not known
   if (entry.value.table() != nullptr) {
     for (const Entry& inner : entry.value.table()->entries()) {
       const bool special = !Schema::model().kinds_with("joint.*", inner.key).empty();
       if (!special || spec.find(inner.key) != nullptr) continue;
       KeySpec key;
       key.key = inner.key;
-      key.type = ValueType::kMarker;  // read as nothing
+      key.type = ValueType::kMarker;  // value skipped
       spec.keys.push_back(key);
     }
   }
@@ -93,7 +93,7 @@ void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::str
   read_between(reading, record, "joint", first, second);
 }
 
-// As a law or a joint type takes it: numbers, or the place of a word among the key's.
+// The values as a law or a joint type takes them: numbers, or the index of a word among the key's words.
 std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
   if (key.words.empty()) return value.numbers;
   return {static_cast<double>(std::find(key.words.begin(), key.words.end(), value.words.front()) - key.words.begin())};
@@ -142,14 +142,14 @@ void read_edge(ModelReading& reading, const Record& record, Joint& joint) {
     reading.complaints.add(record.spot("height"), record.path + ".height", in_quotes(joint.edge->height.text()), std::move(why), "a height that is smooth (a table: interpolation = \"spline\", outside = \"extend\"; a corner: rounded with smoothstep), or a smaller roller");
 }
 
-// A fault of a law or of a geometry, where its key stands.
+// Reports a fault of a law or of a geometry at the place of its key.
 template <class Fault>
 void complain_of(const Fault& fault, const Record& record, ModelReading& reading) {
   const Value* value = record.find(fault.key);
   reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : "no " + fault.key, fault.why, fault.remedy);
 }
 
-// Whether the values of the type's keys go together.
+// Whether the values of the type's keys are consistent.
 void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Record& record, const Node& stated_joint, const Joint& joint) {
   if (type.has_ends && stated_joint.table() != nullptr && stated_joint.table()->find("stops") == nullptr)
     reading.complaints.add(record.spot("stops"), record.path, "no stops", "the " + std::string(type.free.front().name) + " ends somewhere", "stops = \"hard\" or \"cushioned\", with stop_stiffness");
@@ -162,7 +162,7 @@ void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Reco
   complain_of(fault, record, reading);
 }
 
-// What is wrong with points that the model does not state here is wrong with the table that gives them: "displacement" is its x, "force" its y.
+// If the joint takes its points from a table, a fault in them is the table's: "displacement" is its x, "force" its y.
 void blame_the_table(const LawInfo& law, const Record& record, LawFault& fault) {
   if (record.states(fault.key)) return;
   for (const KeyInfo& key : law.keys) {
@@ -174,7 +174,7 @@ void blame_the_table(const LawInfo& law, const Record& record, LawFault& fault) 
   }
 }
 
-// Whether the law suits the joint, and its values, when none is wrong by itself, each other.
+// Whether the law suits the joint and, if each value is valid by itself, whether the values are consistent.
 void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Joint& joint, const LawChoice& choice, bool complete) {
   if (!suits(law, type.word)) {
     std::string types;
@@ -201,7 +201,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   complain_of(fault, record, reading);
 }
 
-// The points of the table that a key names, as the values of the two keys that they stand for.
+// The points of the table that a key names, as values of the two keys that the table replaces.
 bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, const Record& record, const Value& named, LawChoice& choice) {
   const std::string path = record.path + "." + std::string(key.key);
   const std::string& name = named.words.front();
@@ -216,7 +216,7 @@ bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, 
     return complain("the model has no such table", names.empty() ? "[table." + name + "] with x and y" : reading.complaints.did_you_mean(name, names));
   }
   const NamedTable& table = it->second;
-  if (table.x.empty()) return false;  // complained about where it stands
+  if (table.x.empty()) return false;  // complained about at the table itself
   for (const std::string_view stated : key.points)
     if (record.states(stated)) return complain(std::string(stated) + " states the points too", "delete one of them");
   const std::array<const std::vector<double>*, 2> points{&table.x, &table.y};
@@ -229,7 +229,7 @@ bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, 
   return true;
 }
 
-// [defaults.joint] takes what some law allows.
+// [defaults.joint] accepts what at least one law allows.
 void check_default(ModelReading& reading, const KeyInfo& key, const JointTypeInfo& type, const LawInfo& law, const std::string& joint, const Record& defaults, const Value& value) {
   if (!key.words.empty() || !key.points.empty()) return;
   for (const double number : value.numbers)
@@ -238,7 +238,7 @@ void check_default(ModelReading& reading, const KeyInfo& key, const JointTypeInf
                              fmt::format("a value that all joints can have, or {} in {}", key.key, joint));
 }
 
-// `stated_joint` is the joint's table: a key in it that has no value was complained about.
+// `stated_joint` is the joint's table: if a key in it has no value, that was complained about.
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Node& stated_joint,
               const Record& defaults, const Joint& joint, LawChoice& choice) {
   const auto is_stated = [&stated_joint](std::string_view key) { return stated_joint.table() != nullptr && stated_joint.table()->find(key) != nullptr; };
@@ -276,7 +276,7 @@ void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry&
                 record.maybe_number("pin_diameter"), record.maybe_number("pin_length"), record.maybe_number("wear_coefficient")};
 }
 
-// The pin that rubs and the pin that presses are one.
+// The pin that has friction and the pin of the bearing are the same pin.
 void check_pin_size(ModelReading& reading, const Record& record, const Entry& joint, const Joint& out) {
   if (!out.bearing || !out.bearing->pin_diameter || !record.states("pin_radius")) return;
   const std::optional<double> radius = record.maybe_number("pin_radius");
@@ -287,7 +287,7 @@ void check_pin_size(ModelReading& reading, const Record& record, const Entry& jo
                          fmt::format("the joint's own pin_radius is {:.6g} m, which is another pin", *radius), fmt::format("pin_diameter = {:.6g}, or the radius that fits", 2 * *radius));
 }
 
-// What [defaults.joint] states, itself or by the table that it names, no joint must.
+// What [defaults.joint] states, directly or through a table that it names, is not required of any joint.
 void do_without(const LawInfo& law, const Record& defaults, TableSpec& spec) {
   const auto given = [&](const std::string& key) {
     return defaults.states(key) || std::any_of(law.keys.begin(), law.keys.end(), [&](const KeyInfo& info) { return defaults.states(info.key) && std::find(info.points.begin(), info.points.end(), key) != info.points.end(); });
@@ -308,7 +308,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   const std::string detent_word = word_ahead(entry.value, "detent");
   const LawInfo* detent = law_of_role(detent_word, LawRole::kDetent);
   reading.type_of_joint[entry.key] = type == nullptr ? "" : std::string(type->word);
-  // Which keys go with a friction that there is not, nobody knows.
+  // If the friction law does not exist, the keys that belong to it are unknown.
   const std::string rubs = word_ahead(entry.value, "friction");
   if (type == nullptr || law == nullptr || (friction == nullptr && !rubs.empty() && rubs != "none")) {
     read_faulty_joint(reading, entry, path);

@@ -12,7 +12,7 @@ void check_preload(ModelReading& reading, const Record& record, const std::strin
                          "each determines the other", "delete one of them");
 }
 
-// A value that was complained about would have done something.
+// A value that was complained about counts as doing something.
 void check_spring_does_something(ModelReading& reading, const Table& stated, const Record& record, const Spring& spring) {
   for (const char* key : {"stiffness", "damping", "preload"})
     if (stated.find(key) != nullptr) return;

@@ -31,7 +31,7 @@ std::string coordinate_of(ModelReading& reading, const Entry& entry, const std::
   return {};
 }
 
-// Exactly one of the three must be stated (a faulty one counts).
+// Exactly one of the three must be stated (a faulty one counts as stated).
 void check_choice(ModelReading& reading, const Entry& entry, const std::string& path, const std::string& effort) {
   std::vector<const Entry*> stated;
   for (const std::string& key : {effort, std::string("speed"), std::string("position")}) {

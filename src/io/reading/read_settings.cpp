@@ -48,7 +48,7 @@ void check_method(ModelReading& reading, const Record& record, const std::string
                                          : "\"auto\", \"radau\" or \"dopri5\"");
 }
 
-// A penalty that no equations use is a slip.
+// A penalty that the chosen equations do not use is a mistake.
 void check_penalty(ModelReading& reading, const Record& record) {
   if (reading.model.simulate.equations == Equations::kPenalty) return;
   for (const char* key : {"penalty", "penalty_frequency", "penalty_damping"})
@@ -57,7 +57,7 @@ void check_penalty(ModelReading& reading, const Record& record) {
                              "equations = \"penalty\"");
 }
 
-// Only the implicit method can step over what a motion does not feel.
+// Only the implicit method can step over vibrations that the motion does not feel.
 void check_tolerance_of(ModelReading& reading, const Record& record) {
   const SimulateSettings& simulate = reading.model.simulate;
   if (simulate.tolerance_of == ToleranceOf::kForces) return;
@@ -67,7 +67,7 @@ void check_tolerance_of(ModelReading& reading, const Record& record) {
     reading.complaints.add(record.spot("tolerance_of"), "simulate.tolerance_of", in_quotes("motion"), "method " + in_quotes(simulate.method) + " has no tolerance of the motion", "method = \"radau\"");
 }
 
-// Only joints that yield come to rest by themselves.
+// Only compliant joints come to rest by themselves.
 void check_start(ModelReading& reading, const Record& record) {
   const Start start = reading.model.simulate.start;
   const Equations equations = reading.model.simulate.equations;
@@ -102,7 +102,7 @@ void read_simulate(ModelReading& reading) {
   check_times(reading, record);
 }
 
-// Evaluates parameters in the order of their dependence, without recursion: chains may be long.
+// Evaluates parameters in the order of their dependence, without recursion because chains may be long.
 class ParameterReader {
  public:
   using Values = std::unordered_map<std::string, Quantity>;
@@ -149,7 +149,7 @@ class ParameterReader {
       return Quantity{kFaulty, {}};
     };
     for (; reader < entries().size(); ++reader) {
-      if (const std::string* text = entries()[reader].value.string()) static_cast<void>(parse_quantity(*text, scope));  // its faults are told when it is evaluated
+      if (const std::string* text = entries()[reader].value.string()) static_cast<void>(parse_quantity(*text, scope));  // its faults are reported when it is evaluated
     }
   }
 
@@ -169,7 +169,7 @@ class ParameterReader {
     values_[entry.key] = value;
   }
 
-  // What still waits is in a cycle or uses one. Each cycle is named once.
+  // Parameters still waiting are in a cycle or use one. Each cycle is reported once.
   void complain_of_cycles() {
     std::vector<std::size_t> walk_of(entries().size(), 0);
     std::vector<std::size_t> position(entries().size(), 0);
@@ -245,7 +245,7 @@ void read_settings(ModelReading& reading) {
   read_simulate(reading);
 }
 
-// A pattern that matches nothing is a slip, and would be found out only after the run.
+// A pattern that matches nothing is a mistake that would otherwise show only after the run.
 void check_record(ModelReading& reading) {
   const Model& model = reading.model;
   std::vector<std::string> names{"all"};

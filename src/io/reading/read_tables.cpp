@@ -15,7 +15,7 @@
 namespace pintle {
 namespace {
 
-// Why a file's name cannot be used, and what to try; "" if it can.
+// Why a file name cannot be used, and what to try; "" for both if it can.
 std::pair<std::string, std::string> name_fault(const std::string& name) {
   const std::filesystem::path path(name);
   const bool leaves = path.is_absolute() || (name.size() > 1 && name[1] == ':') || std::find(path.begin(), path.end(), "..") != path.end();
@@ -26,7 +26,7 @@ std::pair<std::string, std::string> name_fault(const std::string& name) {
   return {};
 }
 
-// One of x and y: its numbers [SI], and what they are.
+// Either x or y: its numbers [SI], and what they measure.
 struct Coordinate {
   std::vector<double> numbers;
   Dimension dimension = kBareNumber;
@@ -65,7 +65,7 @@ class TableReader {
     else if (std::find(parameters.begin(), parameters.end(), name) != parameters.end()) complain("", entry_.key_spot, in_quotes(name), "a parameter has this name", name + "_table");
   }
 
-  // Either lists or a file; and nothing that would have no effect.
+  // Either lists or a file, and no keys without effect.
   void check_sources() {
     const bool file = record_.states("file");
     for (const char* key : {"x", "y"}) {
@@ -98,7 +98,7 @@ class TableReader {
       if (const auto quantity = reading_.records.read_quantity(item, path_ + "." + key)) out.numbers.push_back(in_si(*quantity, unit, item, key, out.dimension));
   }
 
-  // A bare number is in the unit that is stated. The first quantity with a unit says what all of them are.
+  // A bare number is in the stated unit. The first quantity with a unit sets the dimension of all of them.
   double in_si(const Quantity& quantity, const std::optional<Unit>& unit, const Node& node, const char* key, Dimension& common) {
     if (quantity.dimension.any) return unit ? quantity.si * unit->factor : quantity.si;
     if (common.any) common = quantity.dimension;
@@ -144,7 +144,7 @@ class TableReader {
     return unit;
   }
 
-  // Where a number stands: in its list, or in the file.
+  // The place of a number: in its list, or in the file.
   Spot spot_of(const char* key, std::size_t i) const { return lines_.empty() ? (*record_.find(key)->node->array())[i].spot : record_.spot("file"); }
   std::string found_at(std::size_t i, const std::string& what) const { return lines_.empty() ? what : fmt::format("{}:{}: {}", record_.word("file"), lines_[i], what); }
   const char* key_of(const char* key) const { return lines_.empty() ? key : "file"; }
@@ -191,11 +191,11 @@ class TableReader {
   Record record_;
   Coordinate x_, y_;
   std::optional<Unit> x_unit_;      // of bare numbers
-  std::vector<std::size_t> lines_;  // of the file; none: lists
+  std::vector<std::size_t> lines_;  // line in the file; empty for lists
   std::optional<double> period_;
 };
 
-// What stands for a table with faults, so that expressions that call it are not blamed.
+// Stands in for a faulty table, so that expressions that call it are not blamed.
 NamedTable faulty_table(const std::string& name) {
   return {{name, kBareNumber, kBareNumber, std::make_shared<const TableFunction>(std::vector<double>{0, 1}, std::vector<double>{1, 1}, TableInterpolation::kLinear)}, {}, {}};
 }

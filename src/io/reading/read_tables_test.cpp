@@ -75,7 +75,7 @@ TEST(Tables, MayStandInAFile) {
   EXPECT_DOUBLE_EQ(at(units + "x_column = \"1000\"\ny_column = \"2000\"\n", "2000,1000\n10,1\n20,2\n"), 15);
   EXPECT_DOUBLE_EQ(at("", "angle [rad],M [N*m]\n1,10\n2,20\n"), 15);
   EXPECT_DOUBLE_EQ(at("x_column = \"angle\"\ny_column = \"M\"\n", "M [N*mm],angle [rad]\n10000,1\n20000,2\n"), 15);
-  EXPECT_DOUBLE_EQ(at("y_column = \"joint.O.m\"\n", "t,joint.O.m\r\nrad,N*m\r\n1,10\r\n2,20\r\n"), 15);  // as series.csv
+  EXPECT_DOUBLE_EQ(at("y_column = \"joint.O.m\"\n", "t,joint.O.m\r\nrad,N*m\r\n1,10\r\n2,20\r\n"), 15);  // as in series.csv
   EXPECT_DOUBLE_EQ(at("y_unit = \"kN*m\"\n", "angle,M\nrad,N*m\n1,10\n2,20\n"), 15e3);
 }
 
@@ -107,7 +107,7 @@ TEST(Tables, SurviveConversion) {
   }
 }
 
-// @ stands before the character that is to be blamed.
+// @ precedes the character that the complaint should point at.
 struct TableMistake {
   const char* table;
   const char* path;
@@ -187,7 +187,7 @@ TEST(Tables, InFilesNeedFiles) {
   EXPECT_NE(complaints[0].because.find("only the text of the model is known"), std::string::npos);
 }
 
-// Who calls a faulty table is not blamed.
+// A caller of a faulty table is not blamed.
 TEST(Tables, AreBlamedOnce) {
   EXPECT_EQ(complaints_with_files(with_table("[table.f]\nx = [0, 0]\ny = [1, 2]\n", "f(angle)"), {}).size(), 1U);
   EXPECT_EQ(complaints_with_files(with_table("[table.f]\nx = [0, \"1 m\"]\ny = [1, 2]\n", "f(angle)"), {}).at(0).path, "motor.M.torque");
@@ -204,8 +204,8 @@ TEST(Tables, OfLawsAreOfTheirKind) {
   EXPECT_EQ(about("[table.f]\nx = [0, \"1 s\"]\ny = [0, \"1 N\"]\n", "curve = \"f\"\n"), "joint.J.curve: its x: a length [m] is expected here, not a time [s]");
   EXPECT_EQ(about("[table.f]\nx = [0, \"1 m\"]\ny = [0, \"-1 N\"]\n", "curve = \"f\"\n"), "joint.J.curve: its y: entry 2, -1 N, is below the one before it, 0 N: such a joint is not stable there");
   EXPECT_EQ(about("[table.f]\nx = [0, \"1 m\"]\ny = [\"1 N\", \"2 N\"]\n", "curve = \"f\"\n"), "joint.J.curve: its y: a table that begins at 0 is completed to both sides, and its force there is 0");
-  EXPECT_EQ(about(good, "displacement = [0, 1]\nforce = [0, \"-1 N\"]\n").substr(0, 14), "joint.J.force:");  // as it stands there
-  EXPECT_EQ(about(good, ""), "2 complaints");  // neither curve nor the two lists
+  EXPECT_EQ(about(good, "displacement = [0, 1]\nforce = [0, \"-1 N\"]\n").substr(0, 14), "joint.J.force:");  // at the joint's own list
+  EXPECT_EQ(about(good, ""), "2 complaints");  // neither the curve nor the two lists
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the steps of reading share.
+// Functions shared by the reading steps.
 
 #include "io/reading/model_reading.h"
 #include "io/text.h"
@@ -6,7 +6,7 @@
 namespace pintle {
 namespace {
 
-// The name with everything that cannot stand in it as _.
+// The name with every character that a name cannot have replaced by _.
 std::string usable_name(std::string_view name) {
   std::string usable;
   for (const char c : name.substr(0, 60)) {
@@ -21,7 +21,7 @@ std::vector<std::string> keys_of(const std::map<std::string, std::set<std::strin
   return keys;
 }
 
-// One of the model's markers, of the body that is called like that if there is one.
+// A marker of the model as an example, from the body of that name if there is one.
 std::string example_marker(const ModelReading& reading, const std::string& body) {
   const auto named = reading.markers_of.find(body);
   if (named != reading.markers_of.end()) {

@@ -12,7 +12,7 @@
 namespace pintle {
 namespace {
 
-// How a required key might be stated.
+// An example of how a required key is stated.
 std::string example_line(const KeySpec& key) {
   const std::string start = key.key + " = ";
   const std::string number = key.unit.empty() || key.unit == "any" ? "1" : key.unit == "m" ? "\"10 mm\"" : "\"1 " + key.unit + "\"";
@@ -34,7 +34,7 @@ std::string example_line(const KeySpec& key) {
   }
 }
 
-// The laws that have this key, as a joint chooses them: stops = "hard" or stops = "cushioned".
+// The laws that have this key, in the form a joint states them: stops = "hard" or stops = "cushioned".
 std::string laws_with(std::string_view key) {
   std::string list;
   for (const LawInfo& law : law_catalog())
@@ -43,7 +43,7 @@ std::string laws_with(std::string_view key) {
   return list;
 }
 
-// Where a key stands that is stated in the wrong table, or "" where it has no home or more than a few.
+// The right place of a key that is stated in the wrong table; "" if it has none or more than a few.
 std::string home_of(std::string_view key) {
   constexpr std::size_t kFew = 3;
   const std::vector<std::string> paths = Schema::model().tables_with(key);
@@ -62,8 +62,8 @@ bool is_parameter(const Table& model, std::string_view key) {
   return parameters != nullptr && parameters->table() != nullptr && parameters->table()->find(key) != nullptr;
 }
 
-// What is stated in place of a law with this key: "none", which switches it off with one word, or another law of its role, as law = "linear" is written
-// over law = "clearance" to see the pin ideal. The keys wait for their law to come back. "" where neither is.
+// What is stated instead of a law with this key: "none", which switches the law off in one word, or another law of its role: law = "linear" written
+// over law = "clearance" shows the pin ideal. The keys wait until their law is stated again. "" if neither is stated.
 std::string stated_instead(const Table& table, std::string_view key) {
   std::string instead;
   for (const LawInfo& law : law_catalog()) {

@@ -17,7 +17,7 @@
 
 namespace pintle {
 
-/// The value of a key: as many numbers, words or expressions as its type has. `node` is null for a default.
+/// The value of a key: as many numbers, words or expressions as its type requires. `node` is null for a default.
 struct Value {
   const Node* node = nullptr;
   std::vector<double> numbers;
@@ -25,11 +25,11 @@ struct Value {
   std::vector<Expression> expressions;
 };
 
-/// A table's values by key. A key that is absent and has no default, or whose value was complained about, has none.
+/// A table's values by key. A key without value is either absent and has no default, or its value was complained about.
 class Record {
  public:
   const Value* find(std::string_view key) const;
-  bool states(std::string_view key) const;  ///< the file has this key, with a good value
+  bool states(std::string_view key) const;  ///< the file has this key, with a valid value
   double number(std::string_view key, double otherwise = 0) const;
   std::optional<double> maybe_number(std::string_view key) const;
   std::optional<Vec2> maybe_pair(std::string_view key) const;
@@ -41,8 +41,8 @@ class Record {
   Spot table_spot;
   std::string path;
   std::map<std::string, Value, std::less<>> values;
-  std::set<std::string> refused;  ///< keys that the file has, with values that were complained about
-  std::vector<std::string> waiting;  ///< keys of another law than the one that is stated
+  std::set<std::string> refused;  ///< keys in the file whose values were complained about
+  std::vector<std::string> waiting;  ///< keys of a law other than the stated one
 };
 
 /// Reads and checks values, complaining about each that is wrong.
@@ -50,28 +50,28 @@ class RecordReader {
  public:
   explicit RecordReader(Complaints& complaints) : complaints_(complaints) {}
 
-  /// The constants that expressions may use.
+  /// The constants available to expressions.
   ParseScope scope;
-  /// Variables of expressions beyond the schema's own; called with the expression's text for those "of joints".
+  /// Variables of expressions beyond the schema's own; called with the expression's text if it may read joints.
   std::function<void(std::string_view text, std::vector<std::pair<std::string, Dimension>>& variables)> joint_variables;
 
-  /// All values of the table `node`, which stands at `path`, its key at `key_spot`. `kind` is its kind in words for
+  /// All values of the table `node` at `path`, whose key is at `key_spot`. `kind` says in words what it is, for
   /// messages ("a gear").
   Record read(const TableSpec& spec, const Node& node, Spot key_spot, const std::string& path,
               const std::string& kind = {});
 
-  /// A number in SI units, if the node is one of the key's dimension and range.
+  /// A number in SI units, if the node holds one of the key's dimension and within its range.
   std::optional<double> read_number(const Node& node, const KeySpec& spec, const std::string& path);
   /// The same before dimension and range are checked.
   std::optional<Quantity> read_quantity(const Node& node, const std::string& path);
   std::optional<Marker> read_marker(const Entry& entry, const std::string& path);
-  /// Is the node a table? Complains if not.
+  /// Whether the node is a table. Complains if not.
   bool is_table(const Node& node, const std::string& path);
 
   Complaints& complaints() { return complaints_; }
 
  private:
-  /// Complains about keys that the table cannot have; the keys that they are likely slips for.
+  /// Complains about keys that the table cannot have. Returns the keys of which they are probably misspellings.
   std::set<std::string> check_keys(const TableSpec& spec, const Table& table, Record& record, const std::string& kind);
   std::string complain_of_key(const TableSpec& spec, const Table& table, const Entry& entry, const Record& record, const std::string& kind);
   std::optional<Value> read_value(const Node& node, const KeySpec& spec, const std::string& path);
@@ -91,11 +91,11 @@ class RecordReader {
   void complain(const ParseProblem& problem, const Node& node, const std::string& path);
   void set_variables(const KeySpec& spec, std::string_view text);
 
-  /// Another key of the table that is being read, to which the word belongs; "" if there is none.
+  /// Another key of the table being read that allows this word; "" if there is none.
   std::string other_key_that_allows(const KeySpec& spec, const std::string& word) const;
 
   Complaints& complaints_;
-  const TableSpec* table_ = nullptr;  ///< the table that is being read
+  const TableSpec* table_ = nullptr;  ///< the table being read
 };
 
 /// Why a key cannot have this number; "" if it can.

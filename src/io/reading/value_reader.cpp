@@ -22,7 +22,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// A unit that depends on other keys, such as N/m^contact_exponent, stands in brackets in the meaning.
+// A unit that depends on other keys, such as N/m^contact_exponent, is in brackets in the meaning.
 std::string plain_example(const KeySpec& spec, double si) {
   const std::size_t open = spec.meaning.find('['), close = spec.meaning.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) return "a plain number such as 0.5";
@@ -30,7 +30,7 @@ std::string plain_example(const KeySpec& spec, double si) {
   return number + "a plain number in SI, without its unit " + spec.meaning.substr(open + 1, close - open - 1);
 }
 
-// si: what has been found, with a unit that does not belong here.
+// si: the value found, with an unsuitable unit.
 std::string example_of(const KeySpec& spec, double si = 0) {
   if (spec.unit.empty()) return plain_example(spec, si);
   if (spec.unit == "any") return "a number or a string such as \"25 mm\"";
@@ -61,7 +61,7 @@ std::string list_example(const KeySpec& spec) {
   return "[" + text + "]";
 }
 
-// Whether one of these variables stands in a text.
+// Whether the text contains one of these variables.
 bool mentions(const Node& node, const std::vector<std::string>& variables) {
   const std::string* text = node.string();
   if (text == nullptr) return false;
@@ -72,7 +72,7 @@ bool mentions(const Node& node, const std::vector<std::string>& variables) {
   return false;
 }
 
-// A rotational speed of so many hertz: turns per second to whoever writes it, 1/s to the units, in which a radian is 1.
+// A rotational speed stated in hertz: the user means turns per second, the unit system 1/s, where a radian is 1.
 bool is_speed_in_hertz(const Node& node, const KeySpec& spec) {
   const std::string* text = node.string();
   return text != nullptr && spec.dimension == kAngularSpeed && text->ends_with("Hz") && mentions(node, {"Hz", "kHz"}) && !mentions(node, {"pi"});
@@ -113,7 +113,7 @@ std::optional<Quantity> RecordReader::read_quantity(const Node& node, const std:
     return std::nullopt;
   }
   const Quantity quantity = std::get<Quantity>(result);
-  if (std::isnan(quantity.si)) return std::nullopt;  // made of a constant that was complained about
+  if (std::isnan(quantity.si)) return std::nullopt;  // uses a constant that was complained about
   if (std::isfinite(quantity.si)) return quantity;
   complaints_.add(node.spot, path, describe(node), "this does not give a finite number",
                   "check for a division by 0, or a root or logarithm outside its range");
@@ -189,7 +189,7 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
       good = node.string() != nullptr ? read_word(node, spec, path, value) : read_integer(node, spec, path, value);
       break;
     case ValueType::kMarker:
-      break;  // markers stand in tables of their own: read_marker
+      break;  // markers have tables of their own: read_marker
   }
   if (!good) return std::nullopt;
   return value;
@@ -334,13 +334,13 @@ bool RecordReader::read_expression(const Node& node, const KeySpec& spec, const 
   return true;
 }
 
-// What is no number is taken for a function, so that its complaint says what it may read.
+// Whatever is not a number is taken for a function, so that its complaint says which variables are available.
 bool RecordReader::is_function_of_time(const Node& node, const KeySpec& spec) const {
   if (spec.variables.empty() || node.string() == nullptr) return false;
   return mentions(node, spec.variables) || std::holds_alternative<ParseProblem>(parse_quantity(*node.string(), scope));
 }
 
-// An expression that is in the key's range at the start, where it is one of t.
+// An expression that is in the key's range at the start, if it is one of t.
 bool RecordReader::read_function_of_time(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   if (!read_expression(node, spec, path, value)) return false;
   if (value.expressions.back().variables() != std::vector<std::string>{"t"}) return true;

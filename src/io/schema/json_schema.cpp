@@ -1,4 +1,4 @@
-// The format as a JSON Schema for editors: what completion and hints need, less strict than the reader where the kinds
+// The format as a JSON Schema for editors: enough for completion and hints, less strict than the reader where kinds
 // of joints and motors differ.
 
 #include <fmt/format.h>
@@ -121,7 +121,7 @@ std::string describe_key(const KeySpec& spec) {
   return text;
 }
 
-// A key that several kinds of things have, each with its meaning, keeps all descriptions.
+// A key that belongs to several kinds of things, with a different meaning in each, keeps all descriptions.
 void add_key(Json& properties, const KeySpec& spec) {
   const std::string description = describe_key(spec);
   if (properties.contains(spec.key)) {
@@ -151,7 +151,7 @@ void add_catalog_keys(Json& properties, const TableSpec& table) {
     for (const KeyInfo& key : law.keys) {
       KeySpec spec = spec_of(key);
       if (table.path.starts_with("defaults")) spec.per_component = false;
-      if (!properties.contains(spec.key)) add_key(properties, spec);  // laws share words for what they have in common
+      if (!properties.contains(spec.key)) add_key(properties, spec);  // laws use the same words for what they have in common
     }
   }
 }

@@ -117,7 +117,7 @@ KeySpec read_key(const std::string& key, const Table& table) {
   return spec;
 }
 
-// The word on a line `key = "word"` of the schema; "" where there is none.
+// The word in a line `key = "word"` of the schema; "" if there is no such line.
 std::string stated_word(std::string_view text, std::string_view key) {
   const std::string line = fmt::format("\n{} = \"", key);
   const std::size_t at = text.find(line);
@@ -144,7 +144,7 @@ TableSpec read_table(const Table& table) {
   return spec;
 }
 
-// Laws may allow different ranges of one key; each law's own is asked where it takes the value.
+// Laws may allow different ranges of one key; each law checks its own when it takes the value.
 void widen(KeySpec& key, const KeySpec& other) {
   if (!key.minimum) return;
   if (!other.minimum || *other.minimum < *key.minimum) {
@@ -166,7 +166,7 @@ void add_law_keys(TableSpec& table, const JointTypeInfo* type, const std::array<
         continue;
       }
       table.keys.push_back(spec_of(key, type));
-      if (all) table.keys.back().required = false;  // of one law only
+      if (all) table.keys.back().required = false;  // since it belongs to one law only
     }
   }
 }
@@ -219,7 +219,7 @@ const KeySpec* TableSpec::find(std::string_view key) const {
   return it == keys.end() ? nullptr : &*it;
 }
 
-// At every "[[table]]" one begins.
+// Each "[[table]]" begins a new table.
 Schema::Schema(std::string_view text) {
   constexpr std::string_view kBegin = "\n[[table]]\n";
   for (std::size_t at = text.find(kBegin), next; at != std::string_view::npos; at = next) {
@@ -268,7 +268,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
   if (const JointTypeInfo* type = out.joint_type_keys ? find_joint_type(when) : nullptr) {
     for (const KeyInfo& key : type->keys) {
       out.keys.push_back(spec_of(key));
-      // A geometry that may be left out is measured when assembled, so it has no value of its own.
+      // A geometry that may be left out is measured during assembly, so it has no default value.
       out.keys.back().fallback.reset();
       if (!key.required && key.otherwise.empty()) out.keys.back().otherwise = "as assembled";
     }

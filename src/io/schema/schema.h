@@ -1,4 +1,4 @@
-// The model format as schema/model.schema.toml and the catalogs of laws and joint types state it.
+// The model format as defined by schema/model.schema.toml and the catalogs of laws and joint types.
 #pragma once
 
 #include <deque>
@@ -39,12 +39,12 @@ enum class ValueType {
 struct KeySpec {
   std::string key;
   ValueType type = ValueType::kText;
-  std::string type_word;  ///< the type as the schema calls it
+  std::string type_word;  ///< the name of the type in the schema
   std::string unit;       ///< "" for a pure number, "any" for parameters, "m or rad" where it depends on the kind of joint
   Dimension dimension;    ///< of the unit; `any` for "any"
   std::string meaning;
-  std::string otherwise;         ///< what an absent key means, in words
-  std::optional<Node> fallback;  ///< value of an absent key
+  std::string otherwise;         ///< what it means when the key is absent, in words
+  std::optional<Node> fallback;  ///< value when the key is absent
   std::optional<double> minimum;
   std::optional<double> maximum;
   bool minimum_exclusive = false;
@@ -52,20 +52,20 @@ struct KeySpec {
   bool per_component = false;          ///< a list is allowed: one entry per linear gap component
   std::size_t count = 0;               ///< entries of a list; 0: any number
   std::vector<std::string> words;      ///< allowed words; empty: any
-  std::vector<std::pair<std::string, std::string>> synonyms;  ///< words that are accepted too, and the allowed ones they stand for
-  std::vector<std::pair<std::string, std::string>> meant;     ///< words that are not accepted, and the allowed ones that are suggested for them
-  std::vector<std::string> variables;  ///< of expressions
+  std::vector<std::pair<std::string, std::string>> synonyms;  ///< words that are also accepted, and the allowed words they stand for
+  std::vector<std::pair<std::string, std::string>> meant;     ///< words that are not accepted, and the allowed words suggested for them
+  std::vector<std::string> variables;  ///< that expressions may use
 };
 
-/// One table. `path` has * where the user chooses the name: "body.*.markers".
+/// One table. `path` has * in place of names that the user chooses: "body.*.markers".
 struct TableSpec {
   std::string path;
   std::string when;    ///< for things of this kind only; "": for all
   std::string called;  ///< such things in words: "gear joints"
   std::string meaning;
   std::vector<KeySpec> keys;
-  std::optional<KeySpec> entries;     ///< a table of names that the user chooses, each with a value like this
-  std::vector<std::string> children;  ///< keys of the tables in it, "*" for names that the user chooses (if assembled)
+  std::optional<KeySpec> entries;     ///< for a table of user-chosen names, the form of each value
+  std::vector<std::string> children;  ///< keys of the tables in it, "*" for user-chosen names (if assembled)
   bool law_keys = false;
   bool joint_type_keys = false;
 
@@ -74,28 +74,28 @@ struct TableSpec {
 
 class Schema {
  public:
-  /// The format of this program, read once.
+  /// The format of this program; read once.
   static const Schema& model();
 
   /// All tables, in the order of the file.
   std::vector<TableSpec> tables() const;
 
-  /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of
-  /// the catalogs (of all laws when `law` is empty, else of it, of `friction`, of `stops` and of `detent`). The table must exist.
+  /// Everything that may appear at `path` in a thing of kind `when`: the keys common to all kinds, those of this kind, and
+  /// those of the catalogs (all laws if `law` is empty, else this law with `friction`, `stops` and `detent`). The table must exist.
   TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}, std::string_view friction = {}, std::string_view stops = {},
                      std::string_view detent = {}) const;
 
-  /// The tables that may stand in the table at `path`, by key; "*" for names that the user chooses.
+  /// The tables allowed in the table at `path`, by key; "*" for user-chosen names.
   std::vector<std::string> children(std::string_view path) const;
 
-  /// The kinds of things at `path` that alone have `key`, in words: "gear joints".
+  /// The kinds of things at `path` that have `key`, if not all of them do, in words: "gear joints".
   std::vector<std::string> kinds_with(std::string_view path, std::string_view key) const;
 
-  /// The paths of the tables that have `key`, whatever the kind: "" is the model itself, above every table.
+  /// The paths of the tables that have `key`, of any kind; "" is the model itself, above all tables.
   std::vector<std::string> tables_with(std::string_view key) const;
 
  private:
-  /// A table as the file states it: what it holds is read when it is asked for. Most models use half of them.
+  /// The text of a table in the schema, which is parsed only on request: most models use half of them.
   struct LazyTable {
     std::string path, when;
     std::string_view text;
@@ -109,7 +109,7 @@ class Schema {
   std::deque<LazyTable> tables_;
 };
 
-/// A key of a catalog as a key of the format, in a joint of type `type`; null: in any.
+/// A catalog key as a key of the format, for a joint of type `type`; null: for any joint.
 KeySpec spec_of(const KeyInfo& info, const JointTypeInfo* type = nullptr);
 
 }  // namespace pintle

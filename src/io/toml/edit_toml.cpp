@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-// A line of the file, or several if a value spans them, as offsets into its text.
+// A line of the file, or several if a value spans them, as offsets into the text.
 struct Statement {
   std::size_t begin = 0, end = 0;              // without the line end
   std::size_t value_begin = 0, value_end = 0;  // of "key = value"; empty for anything else

@@ -1,4 +1,4 @@
-// Values changed in a file's text.
+// Changes of values in a file's text.
 #include "io/toml/edit_toml.h"
 
 #include <gtest/gtest.h>

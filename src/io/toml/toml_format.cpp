@@ -1,4 +1,4 @@
-// Puts TOML in order: pieces of text are moved, never rewritten.
+// Tidies TOML: pieces of text are moved, never rewritten.
 
 #include <algorithm>
 #include <stdexcept>
@@ -34,7 +34,7 @@ std::string without_trailing_space(std::string_view text) {
   return std::string(text.substr(0, text.find_last_not_of(" \t") + 1));
 }
 
-// Splits at the line ends that are not inside brackets. (Those inside strings are part of a string piece.)
+// Splits at line ends that are not inside brackets. (Line ends inside strings belong to a string piece.)
 std::vector<Tokens> split_statements(const Tokens& tokens) {
   std::vector<Tokens> statements(1);
   int depth = 0;
@@ -49,7 +49,7 @@ std::vector<Tokens> split_statements(const Tokens& tokens) {
   return statements;
 }
 
-// A value, one blank after commas and inside braces; a list over several lines keeps its lines.
+// A value, with one space after commas and inside braces; a list over several lines keeps its lines.
 class ValueText {
  public:
   std::string text;
@@ -99,7 +99,7 @@ class ValueText {
     if ((brace && !empty_braces) || after_comma || around_equals || words) text += ' ';
   }
 
-  // A dotted key with blanks around its dots closes up; a date with a blank inside keeps it.
+  // A dotted key loses the spaces around its dots; a date with a space inside keeps it.
   bool in_dotted(const Token& token) const { return last_.text.ends_with('.') || token.text.starts_with('.'); }
 
   Token last_{TokenKind::kNewline, {}};
@@ -125,12 +125,12 @@ Line read_line(Tokens tokens) {
   return line;
 }
 
-// Comments of values on neighbouring lines stand below each other.
+// Aligns the comments of values on consecutive lines.
 void align_comments(std::vector<Line>& lines) {
   const auto alignable = [](const Line& line) {
     return line.kind == LineKind::kValue && line.text.find('\n') == std::string::npos;
   };
-  constexpr std::size_t kWidest = 60;  // a longer line does not push the others' comments out
+  constexpr std::size_t kWidest = 60;  // a longer line does not shift the comments of the others
   for (std::size_t first = 0; first < lines.size();) {
     std::size_t end = first;
     std::size_t width = 0;
@@ -146,7 +146,7 @@ void align_comments(std::vector<Line>& lines) {
   }
 }
 
-// One blank line at most, and one before each header with the comments that stand on it.
+// At most one blank line, and one before each header and the comments directly above it.
 std::vector<Line> space_lines(const std::vector<Line>& lines) {
   std::vector<Line> spaced;
   for (const Line& line : lines) {

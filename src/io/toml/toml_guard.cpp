@@ -25,16 +25,16 @@ bool starts_key(const Token& token) {
 
 constexpr std::string_view kCurlyQuotes = "\u201C\u201D\u201E\u2018\u2019\u201A\u00AB\u00BB";
 
-// Whether a string has its closing quotes. What this lets through in error, the parser refuses.
+// Whether a string has its closing quotes. The parser catches what this wrongly accepts.
 bool is_closed(std::string_view string) {
   const bool block = string.starts_with("\"\"\"") || string.starts_with("'''");
   return string.size() >= (block ? 6U : 2U) && string.back() == string.front();
 }
 
-// Walks over the pieces; `expect_` says what may come next, `open_` which lists and inline tables are not yet closed.
+// Steps through the pieces; `expect_` says what may come next, `open_` which lists and inline tables are still open.
 class Guard {
  public:
-  // Why `token` is wrong here; empty if it is not.
+  // Why `token` is wrong here; empty if it is valid.
   std::optional<TomlProblem> look_at(const Token& token) {
     std::optional<TomlProblem> problem = wrong_character(token);
     if (!problem) problem = deep_key(token);
@@ -124,7 +124,7 @@ class Guard {
     });
     if (wrong == token.text.end()) return std::nullopt;
     const auto before = static_cast<std::size_t>(wrong - token.text.begin());
-    const Spot spot{0, spot_.line, spot_.column + static_cast<int>(before)};  // what stands before is ASCII
+    const Spot spot{0, spot_.line, spot_.column + static_cast<int>(before)};  // the text before it is ASCII
     const std::string_view found = character_at(token.text, before);
     if (in_key() && found == ":")
       return TomlProblem{spot, in_quotes(found), "a key and its value are separated by =", "key = value"};
@@ -157,7 +157,7 @@ class Guard {
     return std::nullopt;
   }
 
-  // A word, a number with a unit, or a string that is not closed.
+  // A word, a number with a unit, or an unclosed string.
   std::optional<TomlProblem> missing_quotes(const Token& token) const {
     if (token.kind == TokenKind::kString && !is_closed(token.text))
       return TomlProblem{spot_, "a string without closing quotes",
@@ -226,7 +226,7 @@ class Guard {
   bool accept_after_value(const Token& token) {
     switch (token.kind) {
       case TokenKind::kBare:
-        return true;  // the time of a date
+        return true;  // the time part of a date
       case TokenKind::kComment:
         return !in_table();
       case TokenKind::kNewline:

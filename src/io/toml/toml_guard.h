@@ -1,5 +1,5 @@
-// Looks at the brackets, keys and separators of TOML before the parser does: toml++ 3.3 takes some of them for granted
-// (it asserts rather than refuses), and dotted keys may nest its tables without end.
+// Checks the brackets, keys and separators of TOML before the parser sees them: toml++ 3.3 takes some of them for granted
+// (it asserts instead of rejecting them), and dotted keys can nest its tables to any depth.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ struct TomlProblem {
   std::string suggestion;
 };
 
-/// The first thing in `text` that no TOML parser needs to see. What is left to the parser: the inside of values and
-/// strings, and whether a key is new.
+/// The first fault in `text` that must not reach a TOML parser. Left to the parser: the inside of values and strings,
+/// and whether a key is new.
 std::optional<TomlProblem> first_toml_problem(std::string_view text);
 
 }  // namespace pintle

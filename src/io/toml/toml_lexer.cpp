@@ -5,7 +5,7 @@
 namespace pintle {
 namespace {
 
-// Length of the string that starts at the head of `text`, its quotes included.
+// Length of the string at the start of `text`, including its quotes.
 std::size_t string_length(std::string_view text) {
   const char quote = text.front();
   const bool escapes = quote == '"';
@@ -15,14 +15,14 @@ std::size_t string_length(std::string_view text) {
     if (escapes && text[at] == '\\') {
       at += 2;
     } else if (!block && text[at] == '\n') {
-      return at;  // not closed: the parser will say so
+      return at;  // not closed: the parser will report it
     } else if (text[at] != quote) {
       ++at;
     } else if (!block) {
       return at + 1;
     } else {
       const std::size_t run = std::min(text.find_first_not_of(quote, at), text.size()) - at;
-      at += std::min<std::size_t>(run, 5);  // up to two quotes may stand before the closing three
+      at += std::min<std::size_t>(run, 5);  // up to two quotes may precede the closing three
       if (run >= 3) return at;
     }
   }

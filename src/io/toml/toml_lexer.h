@@ -1,4 +1,4 @@
-// TOML text cut into pieces, none lost: for the formatter and for the guard in front of the parser.
+// Cuts TOML text into pieces without losing any, for the formatter and for the guard before the parser.
 #pragma once
 
 #include <string_view>
@@ -14,10 +14,10 @@ struct Token {
   std::string_view text;
 };
 
-/// The piece at the head of `text`, which must not be empty.
+/// The first piece of `text`, which must not be empty.
 Token next_toml_token(std::string_view text);
 
-/// Cuts `text` without checking its grammar; the pieces joined are `text`.
+/// Cuts `text` without checking its grammar; concatenating the pieces gives `text` again.
 std::vector<Token> cut_toml(std::string_view text);
 
 }  // namespace pintle

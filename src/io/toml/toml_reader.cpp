@@ -1,4 +1,4 @@
-// TOML text to a document, by toml++, which sorts keys: their order in the file is restored from their positions.
+// Converts TOML text to a document with toml++, which sorts keys: their order in the file is restored from their positions.
 
 #include <toml++/toml.h>
 
@@ -80,7 +80,7 @@ class TomlConverter {
     }
   }
 
-  // From a string's opening quote to its first character.
+  // From the opening quote of a string to its first character.
   Spot inside_quotes(Spot spot) const {
     const Source& source = document_.sources.front();
     const std::string_view rest = std::string_view(source.text).substr(source.offset_of(spot.line, spot.column));
@@ -94,10 +94,10 @@ class TomlConverter {
   }
 
   const Document& document_;
-  std::string path_;  // of what is being converted
+  std::string path_;  // of the value being converted
 };
 
-// The parser names the key between quotes and points at its value: back to the key, if it is on the same line.
+// The parser names the key in quotes but points at its value: go back to the key if it is on the same line.
 Spot spot_of_second(const Document& document, Spot spot, std::string_view words) {
   const std::size_t open = words.find('\'');
   const std::size_t close = words.rfind('\'');
@@ -112,7 +112,7 @@ Spot spot_of_second(const Document& document, Spot spot, std::string_view words)
 }
 
 struct SyntaxAdvice {
-  const char* part;  // of what the parser says
+  const char* part;  // of the parser's message
   const char* found;
   const char* suggestion;
 };

@@ -20,7 +20,7 @@ bool holds_structure(const Table& table) {
   });
 }
 
-// Several lines as a block, unless that would need care with what block strings do to line ends and quotes.
+// Several lines as a block string, unless line ends or quotes in it need special care.
 std::string string_text(const std::string& string) {
   const auto awkward = [](char c) {
     return (static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t') || c == 0x7F || c == '"' || c == '\\';

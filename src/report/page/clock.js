@@ -1,4 +1,4 @@
-// The time that everything on the page shows.
+// The time shown by everything on the page.
 
 class Clock {
   constructor(times) {
@@ -30,7 +30,7 @@ class Clock {
     this.tell();
   }
 
-  /** The row at or before the time, and the share of the way to the next. */
+  /** The row at or before the time, and the fraction of the way to the next. */
   find() {
     let low = 0, high = this.times.length;
     while (high - low > 1) {

@@ -1,4 +1,4 @@
-// Puts the page to work: controls, plots, tables.
+// Sets up the page: controls, plots, tables.
 
 const byId = (id) => document.getElementById(id);
 const clock = new Clock(times);
@@ -47,7 +47,7 @@ function setUpStage() {
   followPointer();
 }
 
-/** Round factors; the usual one shows the whole run in about eight seconds, or as it is. */
+/** Round speed factors; the default shows the whole run in about eight seconds, or in real time. */
 function fillSpeeds(select) {
   const span = clock.last - clock.first || 1, natural = span / 8;
   const round = (x) => {
@@ -76,7 +76,7 @@ function followPointer() {
   let from = null, moved = false;
   const zoomed = () => (fit.hidden = stage.view === null);
   canvas.addEventListener("wheel", (event) => {
-    if (document.activeElement !== canvas && !event.ctrlKey) return; // a page that scrolls must not zoom by chance
+    if (document.activeElement !== canvas && !event.ctrlKey) return; // scrolling the page must not zoom by accident
     event.preventDefault();
     stage.zoom(1.0015 ** -event.deltaY, [event.offsetX, event.offsetY]);
     zoomed();
@@ -145,13 +145,13 @@ function contentOf(group, quantity) {
   return { title: `${group.kind} ${group.name}: ${quantity.title}`, unit: quantity.unit, curves: quantity.curves.map((curve) => ({ ...curve, values: curveValues(curve), peak: peakOf(group, curve) })) };
 }
 
-/** When the size of a joint's force is largest and how large it is: between the rows, perhaps. */
+/** Time and size of the peak of a joint's force, which may lie between rows. */
 function peakOf(group, curve) {
   const joint = group.kind === "Joint" ? run.joints.find((one) => one.name === group.name) : undefined;
   return joint && curve.of?.length === 2 && curve.of[0] === joint.fx && curve.of[1] === joint.fy ? [joint.peak_time, joint.peak] : undefined;
 }
 
-/** A chart with two lists to choose from: of what, and which quantity. */
+/** A chart with two lists to choose from: the object and the quantity. */
 class ChosenChart extends Chart {
   constructor(clock, group, quantity) {
     super(clock);
@@ -229,7 +229,7 @@ function setUpCharts() {
   chart.show(contentOf(energy, energy.quantities[0]));
 }
 
-/** Of a body the spin says more than its place. */
+/** For a body the spin is more informative than its position. */
 function group3(group) {
   const spin = group ? group.quantities.findIndex((one) => one.title === "Spin") : -1;
   return spin < 0 ? 0 : spin;
@@ -270,7 +270,7 @@ function setUpTable() {
   document.querySelectorAll("table.sortable").forEach(makeSortable);
 }
 
-/** A click on a head of numbers sorts by it, the largest first; another turns the order round. */
+/** A click on a numeric column header sorts by it, largest first; another click reverses the order. */
 function makeSortable(table) {
   const body = table.tBodies[0];
   if (body.rows.length < 2) return;
@@ -289,7 +289,7 @@ function makeSortable(table) {
   });
 }
 
-/** For paper: the force of every joint, of very many the largest. */
+/** For print: the force of every joint, or if there are too many, the largest. */
 function setUpPrint() {
   const most = 24;
   let host = null;

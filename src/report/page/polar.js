@@ -1,6 +1,6 @@
-// The polar load diagram of a pin: the path of the force's tip, in world axes or in those of the pin's markers on either body.
+// The polar load diagram of a pin: the path of the tip of the force vector, in world axes or in the axes of the pin's marker on either body.
 
-/** Force on the second body in world axes, or on the body whose axes they are: { x, y, on, axes }. */
+/** Force on the second body in world axes, or on the body whose axes are chosen: { x, y, on, axes }. */
 function pinForces(joint, axes) {
   const [fx, fy] = [joint.fx, joint.fy].map((i) => run.columns[i].values), { first, second } = joint.pin;
   if (axes === "world") return { x: fx, y: fy, on: second.on, axes: "world axes" };
@@ -49,7 +49,7 @@ class PolarChart extends Chart {
     this.draw(this.figure.clientWidth || 620);
   }
 
-  /** To the row whose force is nearest to the pointer. */
+  /** Moves to the row whose force is nearest to the pointer. */
   seek(event) {
     if (!this.forces || (event.type === "pointermove" && !(event.buttons & 1))) return;
     const box = this.svg.getBoundingClientRect(), shrunk = this.width / box.width;
@@ -106,7 +106,7 @@ class PolarChart extends Chart {
     }
   }
 
-  /** Points closer than half a pixel to the last are left out. */
+  /** Points within half a pixel of the previous one are left out. */
   path() {
     let d = "", last = null, pen = "M";
     for (let i = 0; i < times.length; ++i) {

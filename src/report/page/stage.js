@@ -1,6 +1,6 @@
-// The mechanism on its canvas. Shapes are paths in body axes, drawn through the pose of their body.
+// The mechanism on its canvas. Shapes are paths in body axes, drawn with the pose of their body.
 
-/** A direction, and a point, of a body's axes in the world. */
+/** A direction and a point of a body's axes, in world axes. */
 const turned = (pose, [x, y]) => [pose.c * x - pose.s * y, pose.s * x + pose.c * y];
 const world = (pose, point) => turned(pose, point).map((d, k) => d + (k === 0 ? pose.x : pose.y));
 
@@ -13,7 +13,7 @@ class Stage {
     this.traced = "";
     this.arrowFactor = 1;
     this.joint = null;
-    this.view = null; // [px/m], world point in the middle; null: everything fits
+    this.view = null; // [px/m], world point at the centre; null: everything fits
     this.traces = new Map();
     this.prepare();
     this.watch();
@@ -53,7 +53,7 @@ class Stage {
     });
   }
 
-  /** As high as the mechanism needs at full width, within reason. */
+  /** As high as the mechanism needs at full width, within limits. */
   resize() {
     const width = this.canvas.clientWidth;
     if (!width) return;
@@ -119,7 +119,7 @@ class Stage {
     const poseOf = (body) => (poses ? poses[body + 1] : this.pose(body));
     const place = world(poseOf(at.body), at.point);
     if (!at.toward) return place;
-    const other = this.placeOf(at.toward, poses); // on the line to another point, or off it in the axes of that one's body
+    const other = this.placeOf(at.toward, poses); // on the line to another point, or offset from it in the axes of that point's body
     const off = turned(poseOf(at.toward.body), at.off);
     return place.map((a, k) => a + at.share * (other[k] - a) + off[k]);
   }
@@ -206,7 +206,7 @@ class Stage {
     g.stroke();
   }
 
-  /** From disc to disc where a belt has them; a radius is positive where the belt is on the left of its disc. */
+  /** From disc to disc if it is a belt; a radius is positive if the belt is on the left of its disc. */
   runOf(a, b, radii) {
     if (!radii) return [a, b];
     const [r, s] = radii, dx = b[0] - a[0], dy = b[1] - a[1], w = s - r, far = Math.max(Math.hypot(dx, dy), Math.abs(w)), t = Math.sqrt((far - w) * (far + w));
@@ -214,7 +214,7 @@ class Stage {
     return [[a[0] + r * x, a[1] + r * y], [b[0] + s * x, b[1] + s * y]];
   }
 
-  /** The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back; of several stages the last one. */
+  /** The barrel from its end forwards, and from the other end back the rod with its piston, as long as the barrel; if there are several stages, the last one. */
   drawCylinder(g, a, [x, y], b, { barrel, half_width: w }, style) {
     const l = Math.hypot(b[0] - a[0], b[1] - a[1]), rod = Math.max(barrel, l - barrel);
     const corner = (from, along, across) => [from[0] + along * x - across * w * y, from[1] + along * y + across * w * x];
@@ -232,7 +232,7 @@ class Stage {
     g.stroke();
   }
 
-  /** A blade: the cubic curve along the axes of both its ends. */
+  /** A blade: the cubic curve tangent to the axes at both its ends. */
   traceBlade(g, a, b, connector, poses) {
     const third = connector.length / 3;
     const from = this.directionOf(connector.from, poses), to = this.directionOf(connector.to, poses);
@@ -244,7 +244,7 @@ class Stage {
     return turned(poses[at.body + 1], [Math.cos(at.axis), Math.sin(at.axis)]);
   }
 
-  /** Points that are followed: "" none, "joints", or the name of one. */
+  /** Traced points: "" none, "joints", or the name of one. */
   tracedPoints() {
     if (this.traced === "joints") return run.scene.labels.filter((point) => point.at.body >= 0 && !point.at.toward);
     return run.scene.points.filter((point) => point.name === this.traced);
@@ -287,7 +287,7 @@ class Stage {
   drawForces(g, poses) {
     const { arrows, arrow_force: force, arrow_length: length } = run.scene;
     if (!(force > 0)) return;
-    const zoom = this.now.scale / this.fitting.scale; // arrows grow with the zoom, but slower
+    const zoom = this.now.scale / this.fitting.scale; // arrows grow with the zoom, but more slowly
     const perNewton = (length * this.fitting.scale * Math.sqrt(zoom) * this.arrowFactor) / force, most = run.scene.arrow_most * perNewton * force;
     let anyCut = false;
     const show = (at, xs, ys, colour) => {
@@ -310,7 +310,7 @@ class Stage {
     g.fillText(`${Number((nice / scale.factor).toPrecision(3))} ${scale.unit}${anyCut ? ", two heads: more than drawn" : ""}`, 20 + nice * perNewton, this.height - 10);
   }
 
-  /** `cut`: it would be longer, and gets a second head. */
+  /** `cut`: the arrow is shortened and gets a second head. */
   drawArrow(g, x0, y0, x1, y1, cut, colour) {
     const l = Math.hypot(x1 - x0, y1 - y0), ux = (x1 - x0) / l, uy = (y1 - y0) / l, size = Math.min(1, l / 16), head = 10 * size, half = 4 * size;
     g.strokeStyle = g.fillStyle = this.colour(colour);
@@ -346,7 +346,7 @@ class Stage {
     }
   }
 
-  /** The joint within reach of a place on the canvas. */
+  /** The joint within reach of a point on the canvas. */
   jointAt(x, y) {
     let best = null, reach = 14;
     for (const arrow of run.scene.arrows) {

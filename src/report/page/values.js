@@ -1,4 +1,4 @@
-// The numbers of the run, and how numbers read.
+// The numbers of the run, and how they are formatted.
 
 const run = JSON.parse(document.getElementById("run").textContent);
 const decoded = (text) => new Float64Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
@@ -9,7 +9,7 @@ for (const column of run.columns) {
 for (const load of run.scene.loads) [load.fx, load.fy] = [decoded(load.fx), decoded(load.fy)];
 const times = run.columns[0].values;
 
-/** The value between two rows; `place` is that of the clock. */
+/** The value between two rows; `place` is the clock's. */
 function valueAt(values, place) {
   const a = values[place.row];
   return place.share > 0 ? a + place.share * (values[place.row + 1] - a) : a;
@@ -31,7 +31,7 @@ function printedUnit(unit) {
 const prefixes = { "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G" };
 const prefixed = ["N", "N*m", "W", "J", "m", "m/s"];
 
-/** What to divide numbers of a unit by so that they are short, and the unit's name then. */
+/** Divisor that keeps numbers of a unit short, and the unit's name after the division. */
 function scaleFor(largest, unit) {
   if (!(largest > 0) || !isFinite(largest) || (largest < 1e4 && largest >= 0.1)) return { factor: 1, unit: printedUnit(unit) };
   const exponent = 3 * Math.floor(Math.log10(largest) / 3);
@@ -67,7 +67,7 @@ function digits(x) {
   return fixed(x, size === 0 ? 1 : Math.max(0, 4 - Math.floor(Math.log10(size))));
 }
 
-/** A time as the clock shows it: with as many decimals as tell one row from the next. */
+/** A time as the clock shows it: with enough decimals to distinguish consecutive rows. */
 const timeText = (t) => `${fixed(t, run.scene.time_decimals)} s`;
 
 const dark = matchMedia("(prefers-color-scheme: dark)");

@@ -1,4 +1,4 @@
-// Text that stands in SVG or HTML.
+// Text for SVG or HTML.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// With the characters of markup spelled out; fit for text and for attributes in double quotes. Control characters become blanks.
+/// Escapes the characters of markup; suitable for text and for attributes in double quotes. Control characters become spaces.
 std::string escaped_markup(std::string_view text);
 
 }  // namespace pintle

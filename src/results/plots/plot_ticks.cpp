@@ -11,8 +11,8 @@
 namespace pintle {
 namespace {
 
-constexpr double kSteady = 1e-9;  // a range below this part of the values is none
-constexpr double kRoom = 0.05;  // free room above and below the data, of their range
+constexpr double kSteady = 1e-9;  // a range below this fraction of the values counts as zero
+constexpr double kRoom = 0.05;  // free space above and below the data, as a fraction of their range
 
 struct Prefix {
   int exponent;

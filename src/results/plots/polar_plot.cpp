@@ -20,9 +20,9 @@ constexpr double kMargin = 18, kAround = 26, kHead = 40, kRow = 19, kSample = 22
 constexpr int kRings = 4, kSpokes = 12;
 constexpr double kCircle = 2 * std::numbers::pi;
 
-/// The row of the longest vector; of an arc about the centre its middle, and otherwise the first of several.
+/// The row of the longest vector. Of several equal ones, the middle if they form an arc about the centre, otherwise the first.
 std::size_t longest(const PolarCurve& curve) {
-  constexpr double kArc = 1e-12;  // of the length: rounding of points on one arc
+  constexpr double kArc = 1e-12;  // relative to the length: roundoff between points of one arc
   const auto length = [&curve](std::size_t i) { return std::hypot(curve.x[i], curve.y[i]); };
   std::size_t best = 0;
   for (std::size_t i = 1; i < curve.x.size(); ++i)
@@ -74,7 +74,7 @@ class PolarPicture {
 
   double middle_x() const { return left_ + 0.5 * side_; }
   double middle_y() const { return top_ + 0.5 * side_; }
-  /// Of a length on the rings' scale [px].
+  /// A length on the scale of the rings [px].
   double pixels(double length) const { return (0.5 * side_ - kAround) * length / rings_.high; }
   Point place(double x, double y) const { return {middle_x() + pixels(x / scale_.factor), middle_y() - pixels(y / scale_.factor)}; }
   static std::string colour(std::size_t i) { return kPlotColours[i % kPlotColours.size()]; }
@@ -134,7 +134,7 @@ class PolarPicture {
   void describe(const PolarCurve& curve, std::size_t index) {
     if (curve.x.empty()) return;
     const std::size_t peak = longest(curve);
-    const bool small = scale_.factor < 1;  // micrometres are read more easily than powers of metres
+    const bool small = scale_.factor < 1;  // micrometres are easier to read than powers of metres
     const double x = curve.x[peak], y = curve.y[peak], line = top_ + side_ + 14 + kRow * static_cast<double>(index);
     put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", left_, line - 4, kSample, stroke(index));
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}peak {} {} at {:.1f}°</text>\n", left_ + kSample + 6, line, kTickSize, curve.label.empty() ? "" : escaped_markup(curve.label) + ": ",

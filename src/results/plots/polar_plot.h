@@ -1,4 +1,4 @@
-// Paths of a vector's tip as SVG: diagrams side by side over rings of equal length, all of one scale.
+// Paths of a vector's tip as SVG: diagrams side by side over concentric rings, all to the same scale.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ struct PolarCurve {
 struct PolarPanel {
   std::string title, axes;  ///< two lines: "Force on crank", "in the axes of its marker"
   std::vector<PolarCurve> curves;
-  double limit = 0;  ///< radius of a circle that bounds the paths, drawn boldly; 0: there is none
+  double limit = 0;  ///< radius of a circle that bounds the paths, drawn in bold; 0: none
 };
 
-/// The first point of each path is marked by a ring, the longest vector by a dot, which the line below the diagram gives in numbers.
+/// The first point of each path is marked by a ring, the longest vector by a dot, whose values are in the line below the diagram.
 struct PolarPlot {
   std::string title, subtitle;
   std::string unit;

@@ -1,4 +1,4 @@
-// The columns of a run that plots are made of, and what is said where there are none.
+// The columns of a run that plots need, and the messages if they are missing.
 #pragma once
 
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-/// A request that the run cannot meet: no such joint, column or component; with what was probably meant.
+/// A request that the run cannot satisfy: no such joint, column or component; with a suggestion of what was probably meant.
 class PlotRequestError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,15 +19,15 @@ class PlotRequestError : public std::runtime_error {
 /// "Did you mean ...?", or the list of all words.
 std::string hint_of(const std::string& word, const std::vector<std::string>& words, std::string_view list_name);
 
-/// Throws PlotRequestError where the run has no such column, or no such joint.
+/// Throws PlotRequestError if the run has no such column or joint.
 int find_column(const Trajectory& trajectory, const std::string& name);
 const LoadSummary& find_joint(const Trajectory& trajectory, const std::string& name);
 
 std::vector<double> values_of(const Trajectory& trajectory, int column);
-/// Of a peak: what an arrow of 200 pixels shows of it but for two.
+/// Fraction of a peak at which a picture shows it: an arrow of 200 pixels is then at most two pixels short.
 inline constexpr double kSeenByArrow = 0.99;
-/// What a picture of the rows does not show of a joint's force: "between the rows joint O reaches 28077 N". Empty where a row has `seen` of the peak, and where
-/// the run did not record the force.
+/// States what a picture of the rows misses of a joint's force: "between the rows joint O reaches 28077 N". Empty if a row reaches the fraction `seen` of the
+/// peak, and if the run did not record the force.
 std::string peak_between_rows(const Trajectory& trajectory, const LoadSummary& joint, double seen = kSeenByArrow);
 
 /// sqrt(x^2 + y^2), row by row.

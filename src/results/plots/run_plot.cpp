@@ -47,9 +47,9 @@ std::string body_on(const LoadSummary& joint, const PlotRequest& request) {
                                      request.on, joint.name, joint.first_body, joint.second_body));
 }
 
-constexpr std::size_t kMostJoints = 7;  // that are plotted unasked: a colour for each
+constexpr std::size_t kMostJoints = 7;  // plotted without being requested: one colour for each
 
-/// Of those whose forces are in rows; in the order of the model.
+/// The most loaded joints among those with recorded forces, in the order of the model.
 std::vector<std::string> most_loaded_joints(const Trajectory& trajectory) {
   std::vector<const LoadSummary*> joints;
   std::vector<double> peaks;
@@ -67,8 +67,8 @@ std::vector<std::string> most_loaded_joints(const Trajectory& trajectory) {
   return names;
 }
 
-constexpr double kNearRow = 1e-6;  // of a period: a row so near to a time of the section is at it
-constexpr int kRowsOfPeriod = 100; // that are proposed
+constexpr double kNearRow = 1e-6;  // as a fraction of the period: a row this close to a time of the section counts as at that time
+constexpr int kRowsOfPeriod = 100; // suggested number
 
 class PlotMaker {
  public:
@@ -93,7 +93,7 @@ class PlotMaker {
  private:
   bool is_section() const { return request_.every != 0; }
 
-  // All, or those one period apart.
+  // All rows, or those one period apart.
   void choose_rows() {
     const std::vector<double> t = values_of(run_.trajectory, 0);
     for (std::size_t row = 0; row < t.size() && !is_section(); ++row) rows_.push_back(row);
@@ -155,7 +155,7 @@ class PlotMaker {
     }
   }
 
-  /// The line goes to the peak, which is seldom in a row.
+  /// The line extends to the peak, which is seldom in a row.
   void mark_peak(Curve& curve, const LoadSummary& joint) const {
     curve.mark = Mark{joint.peak_time, joint.peak, fmt::format("peak {:.5g} N at {:.5g} s", joint.peak, joint.peak_time)};
     const auto after = std::upper_bound(plot_.x.begin(), plot_.x.end(), joint.peak_time);
@@ -166,7 +166,7 @@ class PlotMaker {
     curve.y.insert(curve.y.begin() + place, joint.peak);
   }
 
-  /// Which axes the force components are along, if it is one kind of axes.
+  /// The axes of the force components, if they are all of one kind.
   std::string axes() const {
     const auto any_of = [this](std::initializer_list<std::string_view> words) {
       return std::any_of(request_.components.begin(), request_.components.end(), [&](const std::string& component) {
@@ -194,7 +194,7 @@ class PlotMaker {
     return request_.columns.size() == 1 ? request_.columns.front() : "";
   }
 
-  /// Which model, and for joint forces how far they can be trusted.
+  /// The model, and for joint forces their accuracy.
   std::string subtitle() const {
     std::string text = run_.stamp.model_name.empty() ? run_.stamp.model_path : run_.stamp.model_name;
     double worst = 0, horizon = run_.trajectory.t_end;
@@ -213,7 +213,7 @@ class PlotMaker {
   const RunRecord& run_;
   const PlotRequest& request_;
   Plot plot_;
-  std::vector<std::size_t> rows_;  // of the run, in the plot
+  std::vector<std::size_t> rows_;  // rows of the run that are in the plot
 };
 
 }  // namespace
@@ -229,7 +229,7 @@ Plot make_plot(const RunRecord& run, const PlotRequest& request) {
 }
 
 Plot overlay(const std::vector<NamedPlot>& plots) {
-  constexpr int kSolid = 7;  // styles before they repeat with dashes
+  constexpr int kSolid = 7;  // number of styles before they repeat with dashes
   Plot all = plots.front().plot;
   all.subtitle.clear();
   for (const NamedPlot& one : plots) all.subtitle += (all.subtitle.empty() ? "" : ", ") + one.name;

@@ -18,7 +18,7 @@ const LoadSummary& find_pin(const Trajectory& run, const std::string& name) {
   throw PlotRequestError(fmt::format("found joint \"{}\" of type {}: polar load diagrams are of pins.\n    Choose a revolute joint, or plot --joint {}.", name, joint.type, name));
 }
 
-// A vector along the axes of the first marker, in those of the second one, which are turned by the joint's angle. theory/bearing_life Eq. (4.1)
+// Transforms a vector along the axes of the first marker to those of the second, which are rotated by the joint's angle. theory/bearing_life Eq. (4.1)
 PolarCurve in_axes_of_second(const std::string& label, const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& angle) {
   PolarCurve curve{label, {}, {}};
   for (std::size_t i = 0; i < angle.size(); ++i) {
@@ -43,7 +43,7 @@ void add_curves(const Trajectory& run, const LoadSummary& joint, const std::stri
   plot.panels[2].curves.push_back(in_axes_of_second(label, f1, f2, column(path + "angle")));
 }
 
-// From what the law tells of the pin's distance: how far it is beyond the clearance, or its share of it. 0: nothing.
+// From what the law reports of the pin's distance: its penetration beyond the clearance, or its eccentricity as a fraction of it. 0: nothing reported.
 double radial_clearance(const Trajectory& run, const std::string& path) {
   const auto column = [&](const char* name) { return run.column(path + name); };
   const int x = column("pin_x"), y = column("pin_y"), beyond = column("penetration"), share = column("eccentricity");
@@ -122,7 +122,7 @@ PolarPlot make_orbit_plot(const std::vector<PolarRun>& runs, const std::string& 
 }
 
 PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& joint) {
-  constexpr double kPrinted = 1 - 1e-4;  // of a peak: the picture states it with five digits
+  constexpr double kPrinted = 1 - 1e-4;  // fraction of the peak: the picture states it with five digits
   const RunRecord& leading = *runs.front().run;
   const LoadSummary& pin = find_pin(leading.trajectory, joint);
   PolarPlot plot;

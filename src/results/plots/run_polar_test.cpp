@@ -1,4 +1,4 @@
-// Polar load diagrams of a body that turns steadily about a pin beside its centre of mass: the pin pulls it with m r w^2 along the arm.
+// Polar load diagrams of a body that rotates steadily about a pin off its centre of mass: the pin pulls it with m r w^2 along the arm.
 #include "results/plots/run_polar.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(RunPolar, ForceStandsStillInTheAxesOfWhatTurnsWithIt) {
     EXPECT_NEAR(world.y[i], -kForce * std::sin(angle), 1e-3 * kForce);
     EXPECT_NEAR(first.x[i], -world.x[i], 1e-9 * kForce);  // the ground's marker has the world's axes
     EXPECT_NEAR(first.y[i], -world.y[i], 1e-9 * kForce);
-    EXPECT_NEAR(second.x[i], -kForce * std::cos(kAxis), 1e-3 * kForce);  // along the arm, which the marker's axes are turned against
+    EXPECT_NEAR(second.x[i], -kForce * std::cos(kAxis), 1e-3 * kForce);  // along the arm, relative to which the marker's axes are rotated
     EXPECT_NEAR(second.y[i], kForce * std::sin(kAxis), 1e-3 * kForce);
   }
   const std::string svg = to_svg(plot);

@@ -29,7 +29,7 @@ struct Range {
       high = std::max(high, value);
     }
   }
-  /// With the room for its band: what the band hides is not magnified.
+  /// Includes the curve's band, so that variations hidden by the band are not magnified.
   void cover(const Curve& curve, bool positive) {
     Range own;
     own.cover(curve.y, positive);
@@ -55,7 +55,7 @@ std::string axis_title(const std::string& quantity, const std::string& unit) {
   return fmt::format("{} [{}]", quantity, unit);
 }
 
-/// Where one entry of a legend stands, relative to the panel's left edge and the legend's first row.
+/// Position of a legend entry, relative to the panel's left edge and the legend's first row.
 struct LegendEntry {
   double x = 0;
   int row = 0;
@@ -77,7 +77,7 @@ bool needs_legend(const Panel& panel) {
   return panel.curves.size() > 1 || (panel.curves.size() == 1 && panel.curves[0].style >= 0);
 }
 
-/// One panel with everything that its drawing needs.
+/// One panel with everything needed to draw it.
 struct Frame {
   explicit Frame(const Panel& whose) : panel(whose) {}
 
@@ -88,7 +88,7 @@ struct Frame {
   std::vector<LegendEntry> legend;
 
   bool own_x() const { return !panel.x_quantity.empty(); }
-  // Of a value, and of a tick.
+  // px and py are for values, tick_px and tick_py for ticks.
   double px(double value) const { return left + width * x.share(value); }
   double py(double value) const { return top + height * (1 - y.share(value)); }
   double tick_px(double tick) const { return left + width * (tick - x.low) / (x.high - x.low); }
@@ -240,7 +240,7 @@ void Picture::draw_legend(const Frame& frame) {
   }
 }
 
-// Circles, so that a line beneath shows through.
+// Open circles, so that a line underneath remains visible.
 void Picture::draw_dots(const Frame& frame, const std::vector<Point>& points, std::size_t index) {
   put("<g fill=\"none\" {} stroke-width=\"1.2\">\n", colour(frame, index));
   for (const Point& point : points)
@@ -257,7 +257,7 @@ std::vector<Point> Picture::points_of(const Frame& frame, const Curve& curve, do
   return points;
 }
 
-// Only where it is wider than the line that it lies around.
+// Only if the band is wider than the line that it surrounds.
 void Picture::draw_band(const Frame& frame, std::size_t index) {
   const Curve& curve = frame.panel.curves[index];
   if (frame.y.log || !(curve.band > 0) || !std::isfinite(curve.band)) return;
@@ -265,7 +265,7 @@ void Picture::draw_band(const Frame& frame, std::size_t index) {
   put("<path fill=\"{}\" fill-opacity=\"0.2\" d=\"", kPlotColours[style_of(frame.panel, index) % kPlotColours.size()]);
   const std::vector<Point> upper = points_of(frame, curve, curve.band), lower = points_of(frame, curve, -curve.band);
   const auto there = [&](std::size_t i) { return std::isfinite(upper[i].x) && std::isfinite(upper[i].y); };
-  for (std::size_t first = 0; first < upper.size();) {  // one area for each part of the curve without a gap
+  for (std::size_t first = 0; first < upper.size();) {  // one area for each part of the curve between gaps
     std::size_t end = first;
     while (end < upper.size() && there(end)) ++end;
     std::vector<Point> edge = thin_line({upper.begin() + first, upper.begin() + end}, kColumnWidth);

@@ -1,4 +1,4 @@
-// Line plots as SVG, fit for print: panels one above the other over a common x axis.
+// Line plots as SVG, suitable for print: panels one above the other with a common x axis.
 #pragma once
 
 #include <optional>
@@ -7,32 +7,32 @@
 
 namespace pintle {
 
-/// A point of a line that is marked, at its true place beside the points of the line.
+/// A marked point of a line at its exact position, in addition to the line's own points.
 struct Mark {
   double x = 0, y = 0;
-  std::string title;  ///< "peak 674.08 N at 0.58945 s"; shown by the pointer
+  std::string title;  ///< "peak 674.08 N at 0.58945 s"; shown when the pointer is over the mark
 };
 
-/// One line. The label is plain text; `subscript` follows it lowered ("F" and "x").
+/// One line. The label is plain text; `subscript` follows it as a subscript ("F" and "x").
 struct Curve {
   std::string label, subscript;
   std::vector<double> y;  ///< one per x; a NaN interrupts the line
   bool dots = false;      ///< a dot at every point instead of a line ...
-  bool joined = false;    ///< ... and the line too
-  std::vector<double> x{};  ///< of its own; in a panel whose x axis is the plot's it may be empty: the plot's x
-  double band = 0;          ///< half the width of a band around the line, an error [unit]
-  int style = -1;           ///< which colour (the first seven solid, then the same dashed), and named even when alone; -1: by its place
+  bool joined = false;    ///< ... and the line as well
+  std::vector<double> x{};  ///< x values of its own; if the panel's x axis is the plot's, may be empty: the plot's x
+  double band = 0;          ///< half-width of a band around the line, an error [unit]
+  int style = -1;           ///< colour (the first seven solid, then the same dashed), with a legend even for a single curve; -1: by index
   std::optional<Mark> mark{};
 };
 
-/// One set of axes; all its curves share the unit.
+/// One set of axes; all its curves have the same unit.
 struct Panel {
   std::string quantity;  ///< "Force on rocker"
   std::string unit;      ///< "N"; may get a prefix
   std::vector<Curve> curves;
-  bool log_y = false;    ///< decades; what is not positive is left out
-  std::string x_quantity{}, x_unit{};  ///< given: an x axis of its own, and every curve brings its x
-  bool log_x = false;    ///< of the own x axis
+  bool log_y = false;    ///< logarithmic; values that are not positive are left out
+  std::string x_quantity{}, x_unit{};  ///< if given: an x axis of its own, and every curve has its own x
+  bool log_x = false;    ///< for the panel's own x axis
 };
 
 struct Plot {
@@ -45,7 +45,7 @@ struct Plot {
   double panel_height = 300;  ///< of the axes' frame [px]
 };
 
-/// The picture. Long series are thinned to what can be seen, every minimum and maximum kept.
+/// The picture. Long series are thinned to what is visible; every minimum and maximum is kept.
 std::string to_svg(const Plot& plot);
 
 }  // namespace pintle

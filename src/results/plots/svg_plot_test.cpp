@@ -26,7 +26,7 @@ PlotRequest request_for(std::vector<std::string> joints, std::vector<std::string
   return request;
 }
 
-// A line at zero is drawn where there are values on both of its sides.
+// A line at zero is drawn if there are values on both sides of it.
 TEST(SvgPlot, ZeroIsDrawnBetweenSigns) {
   const auto drawn = [](double low, double high, bool log) {
     Plot plot;
@@ -126,7 +126,7 @@ TEST(ThinLine, StaysCloseToAWanderingLine) {
 
 TEST(ThinLine, GapsStayGaps) {
   const double nan = std::nan("");
-  for (const double turn : {1.0, -1.0}) {  // rising and wandering
+  for (const double turn : {1.0, -1.0}) {  // monotonically rising x, and not
     const std::vector<Point> points{{0, 0}, {1, 1}, {2, nan}, {3, nan}, {4, 1}, {4 + turn, 2}};
     const std::vector<Point> kept = thin_line(points, 0.1);
     ASSERT_EQ(kept.size(), 5U);
@@ -154,7 +154,7 @@ TEST(SvgPlot, PowersOfTenLieOnAStraightLineOfLogAxes) {
   Plot plot;
   plot.log_x = true;
   plot.x = {1, 10, 100, 1000};
-  plot.panels = {{"F", "N", {{"F", "x", {1e-2, 1, 1e2, -1}, true}}, true}};  // the last has no place
+  plot.panels = {{"F", "N", {{"F", "x", {1e-2, 1, 1e2, -1}, true}}, true}};  // the last point cannot be drawn
   std::vector<double> x, y;
   const std::string svg = to_svg(plot);
   for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
@@ -193,7 +193,7 @@ TEST(RunPlot, ForcesOfOneJointNameBodyAndAxes) {
 
 TEST(RunPlot, WithoutARequestTheRecordedJointsAreDrawn) {
   const RunRecord run{sample::stamp(), sample::trajectory()};
-  ASSERT_EQ(run.trajectory.joints.size(), 2U);  // the slide is in no column
+  ASSERT_EQ(run.trajectory.joints.size(), 2U);  // no column records the slide
   const Plot plot = make_plot(run, {});
   EXPECT_EQ(plot.title, "Joint O4: force on rocker");
   EXPECT_EQ(plot.panels.at(0).curves.size(), 3U);
@@ -208,7 +208,7 @@ TEST(RunPlot, OfManyJointsTheMostLoadedAreDrawn) {
   trajectory.joints.clear();
   for (const char* name : {"A", "B", "C", "D", "E", "F", "G", "H", "not_recorded"}) {
     joint.name = name;
-    joint.peak = joint.name == "C" ? 1 : 2;  // the least loaded of nine
+    joint.peak = joint.name == "C" ? 1 : 2;  // the least loaded of nine joints
     trajectory.joints.push_back(joint);
     if (joint.name == "not_recorded") break;
     for (const char* component : {"fx[world]", "fy[world]"}) {
@@ -287,7 +287,7 @@ TEST(SvgPlot, BandIsDrawnWhereItCanBeSeen) {
   EXPECT_NE(to_svg(plot).find("fill-opacity"), std::string::npos);
 }
 
-// The axis has room for the error of a force that is zero but for rounding: neither is the rounding magnified, nor the band cut.
+// The axis includes the error of a force that is zero except for roundoff: the roundoff is not magnified, and the band is not cut.
 TEST(SvgPlot, BandFarWiderThanTheDataStaysInTheFrame) {
   Plot plot;
   plot.x = {0, 1, 2};

@@ -16,7 +16,7 @@ bool rises(const std::vector<Point>& points) {
   return std::is_sorted(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
 }
 
-/// Appends what one column of points [begin, end), all finite, needs.
+/// Appends the points needed from one column of points [begin, end), all finite.
 void append_column(const std::vector<Point>& points, std::size_t begin, std::size_t end, std::vector<Point>& kept) {
   const auto first = points.begin() + static_cast<std::ptrdiff_t>(begin);
   const auto last = points.begin() + static_cast<std::ptrdiff_t>(end);

@@ -1,4 +1,4 @@
-// The report of a check for programs.
+// The report of a check as JSON.
 #include <nlohmann/json.hpp>
 
 #include "results/studies/check_report.h"

@@ -1,4 +1,4 @@
-// The report of a check for people.
+// The report of a check as text.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 using Align = TextTable::Align;
 
 constexpr std::size_t kMostPlotted = 3, kDots = 40;
-constexpr double kMainShare = 0.5;  // of the elastic energy: then one joint decides
+constexpr double kMainShare = 0.5;  // as a fraction of the elastic energy: above this, one joint dominates
 
 std::string word(Cause cause) {
   switch (cause) {
@@ -54,7 +54,7 @@ std::string table_text(const std::vector<Difference>& list, const char* head, bo
     table.add_column("difference is", Align::kLeft);
   }
   for (const Difference& d : list) {
-    const auto of_peak = [](double relative) { return relative * std::numeric_limits<double>::epsilon() < 1 ? exponent(relative) : "-"; };  // otherwise the peak is rounding
+    const auto of_peak = [](double relative) { return relative * std::numeric_limits<double>::epsilon() < 1 ? exponent(relative) : "-"; };  // otherwise the peak is roundoff
     std::vector<std::string> row{d.name,           engineering(d.peak),          exponent(d.largest), d.unit, engineering(d.largest_time),
                                  of_peak(d.relative), of_peak(d.relative_rms), fmt::format("{}", d.digits)};
     if (judged) {
@@ -70,14 +70,14 @@ bool any(const std::vector<Difference>& list, Cause cause) {
   return std::any_of(list.begin(), list.end(), [cause](const Difference& d) { return d.cause == cause; });
 }
 
-// What start_of_run says of laws that equations with ideal joints leave out.
+// The notes of start_of_run about laws that equations with ideal joints ignore.
 std::vector<std::string> notes_of_lost_laws(const Trajectory& run) {
   std::vector<std::string> lost;
   std::copy_if(run.notes.begin(), run.notes.end(), std::back_inserter(lost), [](const std::string& note) { return note.find("not in these equations") != std::string::npos; });
   return lost;
 }
 
-// What the causes mean, and who gives way.
+// Explains the causes, and which joints deflect most.
 std::string explanation(const Comparison& c) {
   std::string text;
   if (any(c.forces, Cause::kNumerical)) text += "  numerical: within the error estimates of both runs; a smaller tolerance would reduce it\n";
@@ -97,7 +97,7 @@ std::string explanation(const Comparison& c) {
   return text;
 }
 
-// Whether it has reached its end, however good its forces are.
+// Whether the run reached its end, whatever the accuracy of its forces.
 bool is_whole(const Trajectory& run) { return run.outcome == Outcome::kCompleted || run.outcome == Outcome::kHorizon || run.outcome == Outcome::kToleranceNotMet; }
 
 std::string run_line(const Trajectory& run, const std::string& name) {
@@ -144,7 +144,7 @@ TextTable runs_table(const Variants& v) {
   return table;
 }
 
-// Small changes with one digit, so that none reads as zero.
+// Small changes with one digit, so that none is printed as zero.
 std::string percent(double change) {
   if (!std::isfinite(change)) return "-";
   return std::abs(change) >= 1e-3 || change == 0 ? fmt::format("{:+.2f} %", 100 * change) : fmt::format("{:+.1g} %", 100 * change);
@@ -174,7 +174,7 @@ TextTable loads_table(const Variants& v) {
   return table;
 }
 
-// A few of many values, for dots on a line.
+// A subset of many values, for dots on a line.
 std::vector<double> sparse(std::vector<double> y) {
   const std::size_t step = std::max<std::size_t>(1, y.size() / kDots);
   for (std::size_t i = 0; i < y.size(); ++i)

@@ -1,4 +1,4 @@
-// The comparison of the integration methods for programs.
+// The comparison of the integration methods as JSON.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// The comparison of the integration methods, for people, for programs and as a picture.
+// The comparison of the integration methods as text, as JSON and as a picture.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ std::string solvers_text(const SolverStudy& study, const std::string& title, boo
 /// Everything as JSON, one object.
 std::string solvers_json(const SolverStudy& study, const std::string& model_name, const std::string& model_path);
 
-/// Joint-force error over wall time and over evaluations, both axes logarithmic, a curve for each method.
+/// Joint-force error against wall time and against evaluations, all axes logarithmic, one curve per method.
 Plot solvers_plot(const SolverStudy& study, const std::string& title);
 
 /// "completed", "stopped", "failed" or "interrupted".

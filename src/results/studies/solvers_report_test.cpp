@@ -64,7 +64,7 @@ std::size_t count_in(const std::string& text, const std::string& part) {
   return n;
 }
 
-// Equal factors are equal lengths: the dots of error 0.1 and 0.01 lie one power of ten apart, as the grid lines do.
+// Equal factors give equal distances: the dots of error 0.1 and 0.01 are one power of ten apart, as are the grid lines.
 TEST(SolversReport, PictureHasLogarithmicAxes) {
   const std::string svg = to_svg(solvers_plot(small_study(), "Four-bar"));
   EXPECT_EQ(count_in(svg, "<circle"), 4U);  // two runs with an error, in two panels

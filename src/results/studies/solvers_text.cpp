@@ -1,4 +1,4 @@
-// The comparison of the integration methods for people.
+// The comparison of the integration methods as text.
 #include <fmt/format.h>
 
 #include <cmath>

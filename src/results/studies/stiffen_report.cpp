@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Align = TextTable::Align;
 
-constexpr std::size_t kMostShown = 6;  // quantities in the table of steps, and curves
+constexpr std::size_t kMostShown = 6;  // number of quantities in the table of steps, and of curves
 
 std::string steps_text(const Stiffening& s) {
   TextTable table;
@@ -65,7 +65,7 @@ std::string joints_text(const Stiffening& s) {
   return table.text();
 }
 
-// Whether the changes fall, so that there is a limit to extrapolate to.
+// Whether the changes decrease, so that there is a limit to extrapolate to.
 bool converges(const Stiffening& s) {
   const std::size_t n = s.steps.size();
   return s.found || (n > 2 && s.steps[n - 1].change < 0.2 * s.steps[n - 2].change);

@@ -1,4 +1,4 @@
-// What the stiffness procedure found, for people, for programs and as a picture.
+// The results of the stiffness procedure as text, as JSON and as a picture.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace pintle {
 
 std::string stiffen_text(const Stiffening& stiffening, const std::string& title, bool colour = false);
 std::string stiffen_json(const Stiffening& stiffening, const std::string& model_name, const std::string& model_path);
-/// Peaks of the chosen quantities over their limits, and the changes, against the stiffness.
+/// Peaks of the chosen quantities relative to their limits, and the changes, against stiffness.
 Plot stiffen_plot(const Stiffening& stiffening, const std::string& title);
 
 }  // namespace pintle

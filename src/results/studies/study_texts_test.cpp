@@ -1,4 +1,4 @@
-// What the studies say, of results that are made up.
+// The texts of the studies, from invented results.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(VariantsText, CausesStandBesideLaterRuns) {
   EXPECT_TRUE(says(text, "physical\n")) << text;
 }
 
-// Changes that fall fast have a limit; it is stated also where the digits asked for were not reached.
+// Changes that decrease fast have a limit, which is stated even if the required digits were not reached.
 TEST(StiffenText, LimitsAreStatedWhereTheyAre) {
   Stiffening s;
   for (const double change : {0.3, 0.03, 0.003}) {

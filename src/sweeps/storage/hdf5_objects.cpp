@@ -25,7 +25,7 @@ void write_one(hid_t object, const char* name, hid_t type, const void* value) {
   demand(H5Awrite(attribute, type, value), name);
 }
 
-// Chunks of whole rows where they fit, and the same bytes whenever it is written.
+// Chunks of whole rows if they fit; the bytes are the same every time the file is written.
 Hdf5 table_properties(hid_t type, std::uint64_t columns) {
   Hdf5 properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "table");
   const std::uint64_t row = std::max<std::uint64_t>(1, columns * H5Tget_size(type));
@@ -54,7 +54,7 @@ void demand(herr_t result, const std::string& doing) {
 }
 
 void silence_hdf5() {
-  static const herr_t no_exit_handler = H5dont_atexit();  // it crashes where a file could not be written
+  static const herr_t no_exit_handler = H5dont_atexit();  // it crashes if a file could not be written
   demand(no_exit_handler, "to start");
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

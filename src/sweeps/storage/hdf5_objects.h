@@ -1,4 +1,4 @@
-// HDF5's objects with owners, and its errors as FileError.
+// Owning wrappers of HDF5 objects; HDF5 errors become FileError.
 #pragma once
 
 #include <hdf5.h>
@@ -12,7 +12,7 @@
 
 namespace pintle {
 
-/// An identifier that is closed by the function that belongs to it.
+/// An identifier that is closed by its own function.
 class Hdf5 {
  public:
   using Close = herr_t (*)(hid_t);
@@ -30,18 +30,18 @@ class Hdf5 {
   Close close_;
 };
 
-/// Throws FileError if a call of HDF5 failed.
+/// Throws FileError if a call to HDF5 failed.
 void demand(herr_t result, const std::string& doing);
-/// From now on HDF5 prints nothing, and does nothing at the end of the program. To be called before anything else of HDF5.
+/// From now on HDF5 prints nothing, and does nothing when the program exits. To be called before any other HDF5 function.
 void silence_hdf5();
 
-/// Text and numbers beside an object.
+/// Text and numbers attached to an object.
 void write_attribute(hid_t object, const char* name, const std::string& text);
 void write_attribute(hid_t object, const char* name, double number);
 void write_attribute(hid_t object, const char* name, std::uint64_t number);
 std::string read_text_attribute(hid_t object, const char* name);  ///< "" if there is none
 
-/// A list of texts as a data set of its own.
+/// A list of texts as a separate data set.
 void write_texts(hid_t group, const char* name, const std::vector<std::string>& texts);
 std::vector<std::string> read_texts(hid_t group, const char* name);
 
@@ -60,7 +60,7 @@ class Hdf5Table {
   Hdf5 data_;
 };
 
-/// All of a table.
+/// The whole of a table.
 template <class T>
 std::vector<T> read_table(hid_t group, const char* name, hid_t type) {
   const Hdf5 data(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, name);

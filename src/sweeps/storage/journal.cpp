@@ -60,11 +60,11 @@ Journal::~Journal() {
 }
 
 void Journal::open(const std::string& head, bool force) {
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)  // some network disks have no locks at all
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)  // some network disks do not support locks
     throw FileError(fmt::format("{}: another pintle sweep is writing it.\n    try: wait for it, or another --out", path_.string()));
   const std::string found = read_at(descriptor_, 0, head.size(), path_);
   const bool same = found == head;
-  const bool torn = head.compare(0, found.size(), found) == 0;  // empty, or killed while it was begun
+  const bool torn = head.compare(0, found.size(), found) == 0;  // empty, or the process was killed while starting it
   if (!same && !torn && !force)
     throw FileError(fmt::format("{}: this is the journal of another sweep, with other values, another model or other options.\n"
                                 "    try: the command that started it to continue it, another --out, or --force to discard it",
@@ -76,9 +76,9 @@ void Journal::open(const std::string& head, bool force) {
   flush(true);
 }
 
-// What follows the first damaged frame is cut off: those samples are computed again.
+// Everything from the first damaged frame on is cut off: those samples are computed again.
 void Journal::read_frames(std::uint64_t start) {
-  end_ = start;  // of what is good
+  end_ = start;  // end of the valid part
   std::string bytes;
   for (std::size_t used = 0;;) {
     const std::size_t before = used;

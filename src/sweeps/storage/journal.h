@@ -1,5 +1,5 @@
-// The samples that are done, on disk: a file that only grows, each sample a frame with a check sum. Whatever kills the program or
-// the machine, what it holds up to the first damaged frame is whole.
+// The finished samples on disk: an append-only file in which each sample is a frame with a checksum. Whatever kills the program or
+// the machine, everything before the first damaged frame is intact.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace pintle {
 
 class Journal {
  public:
-  /// Opens the journal of this plan, with what it holds, or begins one. Throws FileError if it is another plan's (unless `force`: then it
-  /// begins anew) or if another process has it open.
+  /// Opens the journal of this plan with its content, or starts a new one. Throws FileError if it belongs to another plan (unless `force`: then it
+  /// starts anew) or if another process has it open.
   Journal(std::filesystem::path path, const std::string& plan, std::uint64_t n_samples, bool force, DiskCalls calls = {});
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -26,11 +26,11 @@ class Journal {
   std::uint64_t n_troubled() const { return n_troubled_; }
   bool has(std::uint64_t sample) const { return offsets_[sample] != 0; }
 
-  /// Adds a sample that it has not.
+  /// Adds a sample that the journal does not have yet.
   void add(std::uint64_t sample, const SampleResult& result);
-  /// Writes what was added; `sync`: waits until the disk has it.
+  /// Writes what was added; `sync`: waits until it is on the disk.
   void flush(bool sync);
-  /// A sample that it has, after flush().
+  /// A sample that the journal has, after flush().
   SampleResult read(std::uint64_t sample) const;
   /// Closes and removes the file.
   void remove();
@@ -43,8 +43,8 @@ class Journal {
   std::filesystem::path path_;
   DiskCalls calls_;
   int descriptor_ = -1;
-  std::vector<std::uint64_t> offsets_;  // of the frames, by sample; 0: not there
-  std::uint64_t end_ = 0;               // of the file and what waits to be written
+  std::vector<std::uint64_t> offsets_;  // of the frames, by sample; 0: absent
+  std::uint64_t end_ = 0;               // of the file including what is still to be written
   std::uint64_t n_done_ = 0, n_troubled_ = 0;
   std::string waiting_;
 };

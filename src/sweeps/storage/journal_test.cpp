@@ -1,4 +1,4 @@
-// The journal: whatever is cut off or damaged, what it holds before that is whole, and nothing is there twice.
+// The journal: whatever is cut off or damaged, everything before that is intact, and nothing occurs twice.
 #include "sweeps/storage/journal.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ void expect_same(const SampleResult& a, const SampleResult& b) {
   }
 }
 
-// As a disk that is done at once.
+// A disk that syncs immediately.
 DiskCalls quick_disk() {
   DiskCalls calls;
   calls.sync = [](int) { return 0; };
@@ -50,7 +50,7 @@ DiskCalls quick_disk() {
 }
 
 void put_file(const std::filesystem::path& path, std::string_view bytes) {
-  std::filesystem::remove(path);  // some file systems sync a file that is cut to nothing
+  std::filesystem::remove(path);  // some file systems sync a file that is truncated to zero
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
@@ -62,7 +62,7 @@ class JournalOfTwelve : public testing::Test {
     journal.flush(true);
     whole_ = read_file(path_);
   }
-  // What is there can be read, the rest can be added, and then all of it is there at the next start.
+  // The existing samples can be read, the rest can be added, and all of them exist at the next start.
   void expect_usable() {
     std::uint64_t before = 0;
     {

@@ -28,7 +28,7 @@ void put_numbers(std::string& bytes, const std::vector<double>& numbers) {
   bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
 }
 
-// Reads on; what is not there reads as 0, and `good` says so.
+// Reads sequentially; missing bytes read as 0 and clear `good`.
 class Bytes {
  public:
   explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
@@ -80,7 +80,7 @@ void append_frame(std::string& bytes, std::uint64_t sample, const SampleResult& 
   bytes += result.message;
   const auto length = static_cast<std::uint32_t>(bytes.size() - start);
   std::memcpy(bytes.data() + start, &length, sizeof length);
-  const std::uint32_t sum = crc32(std::string_view(bytes).substr(start));  // with 0 in its own place
+  const std::uint32_t sum = crc32(std::string_view(bytes).substr(start));  // with 0 in the place of the sum itself
   std::memcpy(bytes.data() + start + 4, &sum, sizeof sum);
 }
 

@@ -16,13 +16,13 @@ struct NumberedResult {
   SampleResult result;
 };
 
-/// One frame: its length, a check sum, the result. Native byte order.
+/// One frame: its length, a checksum, the result. Native byte order.
 void append_frame(std::string& bytes, std::uint64_t sample, const SampleResult& result);
 
-/// The frame at `at`, which moves behind it; nothing if it is torn or damaged.
+/// Reads the frame at `at` and moves `at` past it; nothing if the frame is truncated or damaged.
 std::optional<NumberedResult> read_frame(std::string_view bytes, std::size_t& at);
 
-/// Length of the frame whose first bytes these are; 0 if they are too few. The longest frame is 1 GiB; beyond it is damage.
+/// Length of the frame that starts with these bytes; 0 if there are too few. The longest frame is 1 GiB; a greater length means damage.
 std::size_t frame_length(std::string_view head);
 inline constexpr std::size_t kFrameHead = 8;
 

@@ -60,7 +60,7 @@ void write_origin(hid_t file, const SweepOrigin& origin) {
   write_texts(files, "texts", texts);
 }
 
-// The tables of the file, and a block of rows of each on the way to them.
+// The tables of the file, with a block of rows of each waiting to be written.
 class Tables {
  public:
   Tables(hid_t file, const SweepOrigin& origin, const SweepPlan& plan)

@@ -1,10 +1,10 @@
-// From metres to pixels and back. World y points up, the screen's down.
+// Converts from metres to pixels and back. World y points up, screen y down.
 import type { Point } from "../model/geometry";
 
 export interface Camera {
   /** Pixels per metre. */
   scale: number;
-  /** Where the world's origin is on the screen [px]. */
+  /** Position of the world's origin on the screen [px]. */
   x: number;
   y: number;
 }
@@ -28,7 +28,7 @@ export function zoomAt(camera: Camera, at: Point, factor: number): Camera {
   return { scale, x: at[0] - (at[0] - camera.x) * real, y: at[1] - (at[1] - camera.y) * real };
 }
 
-/** `foot`: pixels at the lower edge that stay free. */
+/** `foot`: height at the lower edge to keep free [px]. */
 export function fitTo(box: { min: Point; max: Point }, whole: Size, margin = 0.16, foot = 0): Camera {
   const size = { width: whole.width, height: Math.max(whole.height - foot, 1) };
   const width = Math.max(box.max[0] - box.min[0], 1e-6);
@@ -42,7 +42,7 @@ export function fitTo(box: { min: Point; max: Point }, whole: Size, margin = 0.1
   };
 }
 
-/** The grid's step [m]: 1, 2 or 5 times a power of ten, drawn 12 to 30 pixels apart. */
+/** The grid spacing [m]: 1, 2 or 5 times a power of ten, drawn 12 to 30 pixels apart. */
 export function gridStep(camera: Camera): number {
   const raw = 12 / camera.scale;
   const power = 10 ** Math.floor(Math.log10(raw));

@@ -1,4 +1,4 @@
-// The canvas in the page: makes the view and its gestures, and shows the exact fields beside the pointer.
+// The canvas in the page: creates the view and its gestures, and shows the fields for exact values next to the pointer.
 import { useEffect, useRef } from "react";
 import { useStore } from "../store";
 import { useStudio } from "../state";
@@ -56,7 +56,7 @@ function ExactFields() {
   );
 }
 
-/** Where the keys have led the point, in words. */
+/** States in words where the keys have moved the point. */
 function KeyPoint() {
   const said = useStore(entry, (now) => now.said);
   return (

@@ -8,7 +8,7 @@ import { Gestures } from "./gestures";
 import { looksOf } from "./looks";
 import type { View } from "./view";
 
-/** A drawing of a thousand pixels to the metre, the origin in the middle of 1000 by 1000. */
+/** A drawing with a scale of a thousand pixels per metre, the origin in the middle of 1000 by 1000. */
 function drawing() {
   const svg = Object.assign(new EventTarget(), {
     dataset: {} as Record<string, string>,

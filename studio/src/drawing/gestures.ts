@@ -1,4 +1,4 @@
-// Pointer and keys on the canvas: panning, selecting, dragging, and the points of the tools.
+// Pointer and keys on the canvas: panning, selecting, dragging, and placing the points of the tools.
 import { drawn, edit, place, say, select, undo } from "../actions";
 import { isTyping, ownsKey } from "../controls";
 import { type Point, type Pose, along, direction, distance, toBody, toWorld } from "../model/geometry";
@@ -16,7 +16,7 @@ import { ARROWS, nextPoint, placeInWords, pointsOf } from "./key-cursor";
 import { type Asks, finish, toolOf } from "./tools";
 import type { View } from "./view";
 
-/** The fields beside the pointer while a tool draws: what is typed there is exact. */
+/** The fields next to the pointer while a tool draws: typed values are exact. */
 export interface Entry {
   open: boolean;
   x: number;
@@ -26,7 +26,7 @@ export interface Entry {
   radius: boolean;
   typed: { length: string; angle: string };
   field: "length" | "angle";
-  /** Where the keys have led the tool's point, for those who do not see it. */
+  /** Where the keys have moved the tool's point, in words for those who cannot see it. */
   said: string;
 }
 
@@ -36,7 +36,7 @@ export const entry = createStore<Entry>(CLOSED);
 type Gesture =
   | { kind: "pan"; from: Point; camera: Point; moved: boolean }
   | { kind: "box"; from: Point }
-  /** `asks`: the way to this point, which replaces names of parameters, is shown and not yet written. */
+  /** `asks`: the move to this point would replace names of parameters; it is shown but not yet written. */
   | { kind: "reshape"; end: End; label: string; moved: boolean; key: string; asks: Point | null }
   | { kind: "drag"; drag: KinematicDrag; moved: boolean; before: Poses | null; at: Point }
   | { kind: "pull"; body: string; point: [number, number] }
@@ -45,7 +45,7 @@ type Gesture =
 
 /** A click without keys held. */
 const PLAIN = { altKey: false, shiftKey: false };
-/** Pixels that the keys' point keeps from the edge. */
+/** Distance in pixels that the keys' point keeps from the edge. */
 const EDGE = 24;
 
 export class Gestures {
@@ -53,7 +53,7 @@ export class Gestures {
   private targets: Target[] = [];
   private pointer: Point = [0, 0];
   private count = 0;
-  /** The keys have moved the pointer last, not a hand. */
+  /** The keys moved the pointer last, not the mouse. */
   private keyed = false;
   private readonly abort = new AbortController();
 
@@ -72,10 +72,10 @@ export class Gestures {
     let mode = studio.get().mode;
     const end = studio.subscribe(() => {
       const now = studio.get();
-      // A pull at a run makes it a live motion, and goes on in it.
+      // Pulling during a run turns it into a live motion, and the pull continues in it.
       const pulls = now.mode === "live" && this.gesture?.kind === "pull";
       const other = now.tool !== tool || (now.mode !== mode && now.mode !== "edit" && !pulls);
-      // First: cancelling changes the store, and this is told again.
+      // Set first: cancelling changes the store, which calls this again.
       tool = now.tool;
       mode = now.mode;
       if (svg.dataset["tool"] !== tool && document.activeElement?.closest(".tools")) (svg as SVGSVGElement & HTMLElement).focus();
@@ -95,7 +95,7 @@ export class Gestures {
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
-  /** Poses that are on the screen now. */
+  /** Poses currently on the screen. */
   private poses(): Poses {
     const { model } = studio.get();
     const frame = player.frame();
@@ -187,7 +187,7 @@ export class Gestures {
     if (gesture.kind === "box") return this.view.show({ lines: [], box: [gesture.from, this.view.toWorld(at)] });
     const world = this.view.toWorld(at);
     if (gesture.kind === "pull") {
-      // The motion has ended under the hand: moving on must not begin another one.
+      // The motion has ended during the pull: moving on must not start another one.
       if (!player.pulling) return this.reset();
       return player.setPull({ body: gesture.body, point: gesture.point, target: [...world] });
     }
@@ -251,7 +251,7 @@ export class Gestures {
     }
   }
 
-  // A start pose that is written with parameters is not overwritten unasked.
+  // A start pose that is written with parameters is not overwritten without asking.
   private endDrag(gesture: Extract<Gesture, { kind: "drag" }>): void {
     const { model } = studio.get();
     const { poses } = gesture.drag;
@@ -281,7 +281,7 @@ export class Gestures {
     this.previewTool(at, event);
   }
 
-  /** True where the tool has all that it asks for. */
+  /** True if the tool has all the points that it needs. */
   private takePoint(asks: Asks, target: Target): boolean {
     const closes = asks === "many" && this.targets.length > 2 && distance(this.targets[0]!.at, target.at) < this.view.metres(8);
     if (asks === "point" || closes) {
@@ -302,7 +302,7 @@ export class Gestures {
     else if (dragged || !first) this.finish([from, this.exact(this.target(at, event))]);
   }
 
-  // The typed length and angle go before the pointer's.
+  // Typed length and angle take precedence over the pointer's.
   private exact(target: Target): Target {
     const { typed } = entry.get();
     const from = this.targets[0];
@@ -384,7 +384,7 @@ export class Gestures {
     this.bringIntoView();
     const target = this.target(this.pointer, PLAIN);
     const last = this.targets[this.targets.length - 1];
-    // Enter ends what a hand draws; the keys need it for corners, and end where they stand.
+    // With the mouse, Enter ends a drawing; with the keys, Enter sets corners and ends the drawing when the point has not moved.
     if (last && !(asks === "many" && this.keyed && distance(last.at, target.at) > this.view.metres(1))) return false;
     if (this.takePoint(asks, target)) return true;
     this.previewTool(this.pointer, PLAIN);
@@ -395,7 +395,7 @@ export class Gestures {
   private moveByKey(arrow: Point, steps: number): void {
     this.bringIntoView();
     const { model } = studio.get();
-    // Long steps go by the grid alone.
+    // Long steps follow the grid only.
     const points = steps === 1 ? pointsOf(model, this.poses()) : [];
     this.pointer = this.view.toScreen(nextPoint(this.view.toWorld(this.pointer), arrow, steps * gridStep(this.view.camera), points));
     this.keyed = true;
@@ -404,14 +404,14 @@ export class Gestures {
     entry.set({ said: placeInWords(this.exact(this.target(this.pointer, PLAIN))) });
   }
 
-  // A pointer that never came to the canvas, or was left behind by a zoom: the keys begin in the middle.
+  // If the pointer never entered the canvas, or a zoom left it outside, the keys start in the middle.
   private bringIntoView(): void {
     const { width, height } = this.view.size;
     const [x, y] = this.pointer;
     if (x <= 0 || y <= 0 || x >= width || y >= height) this.pointer = [width / 2, height / 2];
   }
 
-  /** Moves the paper where the keys lead over its edge. */
+  /** Pans when the keys move the point over the edge. */
   private follow(): void {
     const { width, height } = this.view.size;
     const [x, y] = this.pointer;
@@ -422,7 +422,7 @@ export class Gestures {
     this.pointer = inside;
   }
 
-  /** Numbers typed while a tool draws go to its fields; Enter takes them. */
+  /** Numbers typed while a tool draws go to its fields; Enter accepts them. */
   private key(event: KeyboardEvent): void {
     if (isTyping(event.target)) return;
     if (this.drawByKey(event)) return event.preventDefault();
@@ -450,7 +450,7 @@ export class Gestures {
   }
 }
 
-/** "200", "200 mm", "0.2 m", "30°"; a bare number is in the field's own unit. */
+/** "200", "200 mm", "0.2 m", "30°"; a bare number is in the unit of the field. */
 export function readTyped(text: string, unit: number): number | null {
   const found = /^\s*(-?\d*\.?\d+)\s*(mm|cm|m|in|deg|°|rad)?\s*$/.exec(text);
   if (!found) return null;

@@ -1,4 +1,4 @@
-// What is under the pointer: points before joints' symbols, symbols before bars, the one on top first.
+// What is under the pointer: points take precedence over joint symbols, symbols over bars, and the topmost over those below.
 import { type Point, distance, hull, nearestOnSegment, toWorld } from "../model/geometry";
 import { type End, GROUND, type Model, type Poses, poseOf, worldPoint } from "../model/model";
 import type { Target, Thing } from "../model/operations";
@@ -6,12 +6,12 @@ import { type Looks, guideEnds } from "./looks";
 
 export interface Hit {
   thing: Thing;
-  /** The point that was met, where it is one. */
+  /** The point that was hit, if any. */
   end: End | null;
   body: string | null;
 }
 
-/** `reach` is in metres: what ten pixels are at this zoom. */
+/** `reach` is ten pixels at the current zoom, in metres. */
 export function hitTest(model: Model, looks: Looks, at: Point, reach: number, poses?: Poses): Hit | null {
   const end = nearestMarker(model, at, reach, poses);
   if (end) {
@@ -36,7 +36,7 @@ export function nearestMarker(model: Model, at: Point, reach: number, poses?: Po
   let least = reach;
   const consider = (body: string, marker: string, p: Point) => {
     const gap = distance(p, at);
-    // Bodies are drawn over the ground: at the same place theirs is meant.
+    // Bodies are drawn over the ground: at the same distance the body is chosen.
     if (gap < least || (gap === least && best?.body === GROUND)) {
       least = gap;
       best = { body, marker };
@@ -51,7 +51,7 @@ export function nearestMarker(model: Model, at: Point, reach: number, poses?: Po
   return best;
 }
 
-// The origin of a guide is no point to pin things to.
+// The origin of a guide is not a point to pin things to.
 function isGuideOnly(model: Model, marker: string): boolean {
   let guide = false;
   for (const joint of model.joints) {
@@ -141,7 +141,7 @@ function hitGuide(model: Model, looks: Looks, at: Point, reach: number, poses?: 
   return null;
 }
 
-/** Where a drawing tool's point goes: to a point that is there, onto a body, or to the grid. */
+/** Where a drawing tool's point snaps to: an existing point, a body, or the grid. */
 export function snap(model: Model, looks: Looks, at: Point, reach: number, grid: number, poses?: Poses, free = false): Target {
   if (free) return { at, end: null, body: null };
   const end = nearestMarker(model, at, reach, poses);
@@ -149,12 +149,12 @@ export function snap(model: Model, looks: Looks, at: Point, reach: number, grid:
   const hit = hitBody(model, looks, at, reach * 0.6, poses);
   if (hit?.body) return { at: onAxis(model, hit.body, at, reach, poses), end: null, body: hit.body };
   const rounded: Point = [roundTo(at[0], grid), roundTo(at[1], grid)];
-  // The grid may lead to a point that is there.
+  // The grid point may coincide with an existing point.
   const there = nearestMarker(model, rounded, reach * 0.2, poses);
   return { at: rounded, end: there, body: there?.body ?? null };
 }
 
-// On a bar the point goes to its line.
+// On a bar, the point snaps to its centre line.
 function onAxis(model: Model, name: string, at: Point, reach: number, poses?: Poses): Point {
   const body = model.body.get(name);
   if (body?.markers.length !== 2) return at;
@@ -167,7 +167,7 @@ function roundTo(value: number, step: number): number {
   return Number((Math.round(value / step) * step).toPrecision(12));
 }
 
-/** All bodies under a point: what a pin between two bars joins. */
+/** All bodies under a point: those that a pin between two bars joins. */
 export function bodiesAt(model: Model, looks: Looks, at: Point, reach: number, poses?: Poses): string[] {
   return model.bodies
     .filter((body) => hitBody({ ...model, bodies: [body] }, looks, at, reach, poses) !== null)

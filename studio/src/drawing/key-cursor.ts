@@ -1,4 +1,4 @@
-// Drawing without a pointer: arrows move the tool's point over the grid and onto the points of the mechanism, and words say where it is.
+// Drawing without a pointer: arrow keys move the tool's point over the grid and onto points of the mechanism, and words state its position.
 import { type Point, toWorld } from "../model/geometry";
 import { GROUND, type Model, type Poses, poseOf } from "../model/model";
 import type { Target } from "../model/operations";
@@ -12,8 +12,8 @@ export function pointsOf(model: Model, poses: Poses): Point[] {
 }
 
 /**
- * One step along an arrow: to the next line of the grid, or to the first point of the mechanism on the way there. Points that lie
- * within half a step of the row count, so that every point can be reached.
+ * One step along an arrow: to the next grid line, or to the first point of the mechanism on the way. Points within half a
+ * step of the row count, so that every point can be reached.
  */
 export function nextPoint(from: Point, [dx, dy]: Point, step: number, points: readonly Point[]): Point {
   const forward = dx !== 0 ? 0 : 1;

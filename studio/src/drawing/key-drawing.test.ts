@@ -1,4 +1,4 @@
-// Keys and pointer on a canvas that has no picture.
+// Keys and pointer on a canvas without a picture.
 import { beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
 import { chooseTool, openText } from "../actions";
 import type { Pull } from "../kernel/protocol";

@@ -1,4 +1,4 @@
-// Forces, torques and motors as the model states them, and the arrows of what joints carry.
+// Forces, torques and motors as stated by the model, and arrows for joint forces.
 import type { Point } from "../model/geometry";
 import { type End, GROUND, type Model, markerOf } from "../model/model";
 import { guideEnds } from "./looks";
@@ -17,7 +17,7 @@ export function drawLoads(scene: Scene, model: Model): void {
       path(turnArrow(18, load.torque >= 0), "turn", one);
       scene.follow(one, load.on.body, at, 0, false);
     } else {
-      // The arrow ends at the point, as a push is drawn.
+      // The arrow ends at the point, as pushing forces are drawn.
       const angle = load.force[0] || load.force[1] ? Math.atan2(load.force[1], load.force[0]) : -Math.PI / 2;
       const shaft = path(arrow(LOAD_LENGTH, 11, 1.8), "arrow", one);
       put(shaft, -(LOAD_LENGTH + 6) * Math.cos(angle), (LOAD_LENGTH + 6) * Math.sin(angle), angle);
@@ -53,7 +53,7 @@ function placeOf(model: Model, first: End, second: End): { body: string; at: Poi
   return { body: end.body, at: markerOf(model, end)?.at ?? [0, 0] };
 }
 
-/** Joint forces while it plays: on the second body; length by the square root, so that small ones are seen beside large ones. */
+/** Joint forces during playback, on the second body; the length follows the square root, so that small ones are visible next to large ones. */
 export class ForceArrows {
   private readonly places: { body: string; at: Point; line: SVGPathElement; drawn: number }[];
 

@@ -1,5 +1,5 @@
-// How each body and joint of a model is drawn, as a textbook would: bars with rounded ends, plates, discs, blocks on guides.
-// Decided once for each model; in metres and body axes, so that drawing and picking agree.
+// How each body and joint of a model is drawn, as in a textbook: bars with rounded ends, plates, discs, blocks on guides.
+// Decided once per model; in metres and body axes, so that drawing and picking agree.
 import { type Point, distance } from "../model/geometry";
 import { type Body, type End, GROUND, type Joint, type Marker, type Model, type Poses, markerOf, worldPoint } from "../model/model";
 
@@ -7,7 +7,7 @@ export type BodyLook =
   /** The rounded hull of these points. */
   | { kind: "bar"; points: Point[] }
   | { kind: "disc"; radius: number; spokes: boolean }
-  /** A slider block: its size is the screen's, or its shape's. */
+  /** A slider block; its size is fixed on the screen or given by its shape. */
   | { kind: "block"; axis: number; at: Point; width: number | null; height: number | null }
   | { kind: "mass" };
 
@@ -36,14 +36,14 @@ export interface Looks {
   guides: GuideLook[];
 }
 
-/** Of a sliding joint: the end that carries the guide, and the end that runs along it. */
+/** For a sliding joint: the end that carries the guide, and the end that moves along it. */
 export function guideEnds(joint: Joint): { guide: End; runner: End } {
-  // A slot is always the first marker's; a prismatic pair looks best with its guide on the ground.
+  // A slot always belongs to the first marker; a prismatic pair looks best with its guide on the ground.
   if (joint.type === "prismatic" && joint.second.body === GROUND) return { guide: joint.second, runner: joint.first };
   return { guide: joint.first, runner: joint.second };
 }
 
-// A guide of the ground is drawn where its runner is: its marker may be far away on the same line.
+// A guide on the ground is drawn at its runner, since its marker may be far away on the same line.
 function alongAxis([x, y]: Point, axis: number, [u, v]: Point): Point {
   const c = Math.cos(axis);
   const s = Math.sin(axis);
@@ -84,7 +84,7 @@ function gearsOf(model: Model): GearLook[] {
   return gears;
 }
 
-// A body with a slot reaches from end to end of it.
+// A body with slots extends from end to end of each.
 function slotEnds(body: Body, guides: readonly GuideLook[]): Point[] {
   return guides
     .filter((guide) => guide.slot && guide.on === body.name)

@@ -1,5 +1,5 @@
-// The drawing of a mechanism: built once for each model and zoom, then only moved. One frame sets a transform for each
-// thing that moves; nothing is made or measured in it.
+// The drawing of a mechanism: built once per model and zoom, then only moved. A frame only sets a transform for each
+// moving thing; it creates and measures nothing.
 import { type Point, type Pose, distance, roundedOutline, toWorld } from "../model/geometry";
 import { type Blade, type End, GROUND, type Joint, type Model, type Profile, type Spring, markerOf } from "../model/model";
 import type { Thing } from "../model/operations";
@@ -9,7 +9,7 @@ import { ForceArrows, drawLoads } from "./loads";
 import { BAR, BEARING, PIN, bearingRing, beltRun, bend, centreMark, circle, coil, cylinder, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
 import { group, make, path, put } from "./svg";
 
-/** One instant: where bodies are, and what joints carry (fx, fy, moment on the second body, in the order of the model). */
+/** One instant: poses of the bodies, and joint forces (fx, fy, moment on the second body, in the order of the model). */
 export interface Frame {
   pose: (body: string) => Pose;
   forces: ArrayLike<number> | null;
@@ -19,11 +19,11 @@ export interface SceneOptions {
   labels: boolean;
   forces: boolean;
   centres: boolean;
-  /** Length of the longest force arrow stands for this force [N]. */
+  /** The force that the longest force arrow represents [N]. */
   forceScale: number;
 }
 
-/** With more joints letters hide the mechanism, and cost half of a frame where no graphics card draws them. */
+/** With more joints, labels hide the mechanism, and take half of each frame without a graphics card. */
 const MOST_LABELS = 60;
 
 type Mover = (frame: Frame) => void;
@@ -46,7 +46,7 @@ export class Scene {
     for (const name of LAYERS.slice(1)) this.layers[name] = group(`layer-${name}`, this.root);
   }
 
-  /** Draws everything anew: after an edit or a zoom. */
+  /** Redraws everything, after an edit or a zoom. */
   show(model: Model, looks: Looks, camera: Camera, options: SceneOptions): void {
     for (const name of ["ground", "guides", "bodies", "links", "pins", "loads", "forces", "labels"] as const) this.layers[name].replaceChildren();
     this.movers = [];
@@ -56,7 +56,7 @@ export class Scene {
     for (const guide of looks.guides) this.drawGuide(guide);
     for (const gear of looks.gears) this.drawGear(gear);
     for (const joint of model.joints) if (joint.profile) this.drawProfile(model, joint, joint.profile);
-    // Blocks and discs lie under the bars that are pinned to them.
+    // Blocks and discs are below the bars that are pinned to them.
     const looked = model.bodies.map((body, i) => ({ name: body.name, look: looks.bodies.get(body.name) ?? ({ kind: "mass" } as BodyLook), i }));
     for (const under of [true, false]) for (const { name, look, i } of looked) if ((look.kind !== "bar") === under) this.drawBody(name, look, i);
     const pinned = new Set(model.joints.filter((joint) => joint.type === "revolute" || joint.type === "fixed").flatMap((joint) => [joint.first, joint.second]).map((end) => `${end.body}.${end.marker}`));
@@ -79,14 +79,14 @@ export class Scene {
     this.arrows?.place(frame, this.scale);
   }
 
-  /** Marks what is selected and what the pointer is over. */
+  /** Highlights the selection and the thing under the pointer. */
   mark(selection: readonly Thing[], hover: Thing | null): void {
     for (const elements of this.marked.values()) for (const one of elements) one.classList.remove("selected", "hover");
     for (const thing of selection) for (const one of this.marked.get(`${thing.kind}.${thing.name}`) ?? []) one.classList.add("selected");
     if (hover) for (const one of this.marked.get(`${hover.kind}.${hover.name}`) ?? []) one.classList.add("hover");
   }
 
-  /** Elements of a thing, for marking. */
+  /** Registers an element of a thing, for highlighting. */
   register(kind: Thing["kind"], name: string, element: Element): void {
     const key = `${kind}.${name}`;
     const list = this.marked.get(key);
@@ -98,7 +98,7 @@ export class Scene {
     this.movers.push(move);
   }
 
-  /** Where a point of a body is, in pixels from the world's origin. */
+  /** Position of a point of a body, in pixels from the world's origin. */
   at(frame: Frame, body: string, point: Point): Point {
     const [x, y] = body === GROUND ? point : toWorld(frame.pose(body), point);
     return [x * this.scale, -y * this.scale];
@@ -108,7 +108,7 @@ export class Scene {
     return [x * this.scale, -y * this.scale];
   }
 
-  /** Keeps an element at a point of a body, turned with the body and by its own angle. */
+  /** Attaches an element to a point of a body, rotated with the body and by an angle of its own. */
   follow(element: Element, body: string, point: Point, angle = 0, turns = true): void {
     if (body === GROUND) return put(element, ...this.local(point), turns ? angle : 0);
     this.onFrame((frame) => {
@@ -155,7 +155,7 @@ export class Scene {
     path(polyline(profile.outline.map((p) => this.local(p)), true), "solid", one);
   }
 
-  // What runs on cams and edges: a roller, or the line of a flat face.
+  // The followers of cams and edges: a roller, or the line of a flat face.
   private drawFollowers(model: Model): void {
     for (const joint of model.joints) {
       if (!joint.profile) continue;
@@ -191,7 +191,7 @@ export class Scene {
     else path(`M${-reach} 0H${reach}`, "axis", one);
   }
 
-  // A point under a pin needs no dot of its own.
+  // A point under a pin needs no dot.
   private drawMarkers(body: string, markers: Model["ground"], pinned: ReadonlySet<string>, options: SceneOptions): void {
     for (const marker of markers) {
       if (pinned.has(`${body}.${marker.name}`) && !marker.traced) continue;
@@ -233,7 +233,7 @@ export class Scene {
     this.follow(pin, end.body, at, 0, joint.type === "fixed");
   }
 
-  // A block on a guide, where the sliding body has other points besides.
+  // A block on a guide, if the sliding body also has other points.
   private drawBlock(joint: Joint, end: End, at: Point, axis: number): void {
     const block = path(rectangle(28, 18, 3), "block", this.layers.links);
     this.register("joint", joint.name, block);
@@ -276,7 +276,7 @@ export class Scene {
     for (const end of [a, b]) this.follow(path(circle(0, 0, PIN - 1), "pin", this.layers.pins), end.body, end.at, 0, false);
   }
 
-  // The cubic curve that leaves and reaches the clamps along the blade.
+  // The cubic curve that is tangent to the blade's direction at both clamps.
   private drawBlade(model: Model, joint: Joint, blade: Blade): void {
     const line = path("", "spring blade", this.layers.links);
     this.register("joint", joint.name, line);
@@ -318,7 +318,7 @@ export class Scene {
     });
   }
 
-  // Letters beside the points, each once however many joints meet there; names of bodies in their middle.
+  // Labels next to the points, each once however many joints meet there; names of bodies at their centres.
   private drawLabels(model: Model): void {
     const seen = new Set<string>();
     for (const joint of model.joints) {
@@ -334,7 +334,7 @@ export class Scene {
     }
   }
 
-  /** A plain picture of the mechanism elsewhere: the ideal run beside the real one. */
+  /** A plain picture of another mechanism: the ideal run behind the real one. */
   ghost(model: Model, looks: Looks | null): ((frame: Frame) => void) | null {
     this.layers.ghost.replaceChildren();
     if (!looks) return null;

@@ -1,4 +1,4 @@
-// The few words of SVG that the scene needs, without a framework: in the animation loop only attributes change.
+// The few SVG functions that the scene needs, without a framework: in the animation loop only attributes change.
 const SPACE = "http://www.w3.org/2000/svg";
 
 export type Attributes = Record<string, string | number>;
@@ -20,7 +20,7 @@ export function group(className: string, parent: Element): SVGGElement {
 
 const two = (value: number) => Math.round(value * 100) / 100;
 
-/** Moves an element to a place on the screen, turned counter-clockwise by an angle of the world. */
+/** Moves an element to a position on the screen, rotated counter-clockwise by an angle in the world. */
 export function put(element: Element, x: number, y: number, angle = 0): void {
   const turned = angle ? ` rotate(${two((-angle * 180) / Math.PI)})` : "";
   element.setAttribute("transform", `translate(${two(x)} ${two(y)})${turned}`);

@@ -1,10 +1,10 @@
-// Paths of the symbols, in pixels, y down. Sizes are chosen on the screen: a drawing reads the same at every zoom.
+// Paths of the symbols, in pixels, y down. Sizes are fixed on the screen, so that a drawing is equally readable at every zoom.
 import type { Point } from "../model/geometry";
 
 export const PIN = 4.5;
 export const BAR = 8;
 
-/** Strokes and teeth of one symbol end here: far outside of any screen, and soon enough to be drawn. */
+/** Limit for lines and teeth of one symbol: far outside any screen, yet quick to draw. */
 const MOST_REACH = 40_000;
 
 const f = (value: number) => (Math.round(value * 10) / 10).toString();
@@ -20,7 +20,7 @@ export function circle(x: number, y: number, r: number): string {
 
 export const BEARING = 8.5;
 
-/** What is around the pin of a joint with this law: balls, oil, rubber, or room. None around a plain spring and damper. */
+/** The ring around the pin of a joint with this law: balls, oil, rubber, or clearance. None for a plain spring and damper. */
 export function bearingRing(law: string): { look: "rolling" | "oil" | "rubber" | "gap"; balls?: string } | null {
   if (law === "journal-bearing") return { look: "oil" };
   if (law === "clearance") return { look: "gap" };
@@ -32,7 +32,7 @@ export function bearingRing(law: string): { look: "rolling" | "oil" | "rubber" |
   return { look: "rolling", balls: around.map((angle) => circle(centres * Math.cos(angle), centres * Math.sin(angle), 1.3)).join("") };
 }
 
-/** A support: triangle from the pin, a line, hatching below it. */
+/** A support: a triangle below the pin, a line, and hatching below it. */
 export function support(): { body: string; hatch: string } {
   const h = 17;
   const w = 11;
@@ -41,7 +41,7 @@ export function support(): { body: string; hatch: string } {
   return { body: `M0 0L${-w} ${h}H${w}Z`, hatch };
 }
 
-/** A straight guide of a half length: line with hatching on its lower side, at a distance below the axis. */
+/** A straight guide of a given half-length: a line hatched on its lower side, at a distance below the axis. */
 export function groundGuide(reach: number, gap: number): string {
   const end = Math.min(reach, MOST_REACH);
   let path = `M${f(-end)} ${gap}H${f(end)}`;
@@ -77,13 +77,13 @@ export function dashpot(length: number): string {
   return `M0 0H${f(mid - cup)}M${f(mid - cup)} -7V7M${f(mid - cup)} -7H${f(mid + cup)}M${f(mid - cup)} 7H${f(mid + cup)}M${f(mid)} -5V5M${f(mid)} 0H${f(length)}`;
 }
 
-/** A cylinder along x: the barrel from its point on, and the rod with its piston, as long as the barrel, back from its own end; of several stages the last one. */
+/** A cylinder along x: the barrel from its end forwards, and from the other end back the rod with its piston, as long as the barrel; of several stages the last one. */
 export function cylinder(length: number, barrelLength: number): { barrel: string; rod: string } {
   const piston = Math.min(length - barrelLength, barrelLength);
   return { barrel: `M0 -9H${f(barrelLength)}V9H0Z`, rod: `M${f(piston)} 0H${f(length)}M${f(piston)} -9V9` };
 }
 
-/** Both ends of a belt between discs about two points; a radius is positive where the belt, seen from the first, is turned +90 degrees from the middle. */
+/** Both ends of a belt between discs about two points; a radius is positive if the belt, seen from the first point, is on the +90 degree side of the centre line. */
 export function beltRun([x, y]: Point, [u, v]: Point, [first = 0, second = 0]: readonly number[]): [Point, Point] {
   const w = second - first;
   const far = Math.max(Math.hypot(u - x, v - y), Math.abs(w));
@@ -93,7 +93,7 @@ export function beltRun([x, y]: Point, [u, v]: Point, [first = 0, second = 0]: r
   return [[x + first * a, y + first * b], [u + second * a, v + second * b]];
 }
 
-/** A blade from one point to another, in these directions there (y up), with handles of this length. */
+/** A blade from one point to another, with the given directions at its ends (y up) and handles of this length. */
 export function bend([x, y]: Point, leaves: number, [u, v]: Point, arrives: number, handle: number): string {
   const c = [x + handle * Math.cos(leaves), y - handle * Math.sin(leaves), u - handle * Math.cos(arrives), v + handle * Math.sin(arrives)];
   return `M${f(x)} ${f(y)}C${c.map(f).join(" ")} ${f(u)} ${f(v)}`;
@@ -118,7 +118,7 @@ export function arrow(length: number, head = 9, shaft = 1.3): string {
   return `M0 ${-shaft}H${f(back)}V${f(-h * 0.42)}L${f(l)} 0L${f(back)} ${f(h * 0.42)}V${shaft}H0Z`;
 }
 
-/** Part of a circle about the origin with an arrow head; counter-clockwise on the screen if `left`. */
+/** Part of a circle about the origin with an arrowhead; counter-clockwise on the screen if `left`. */
 export function turnArrow(radius: number, left: boolean): string {
   const from = left ? 0.7 : -0.7;
   const to = left ? -4.1 : 4.1;
@@ -131,7 +131,7 @@ export function turnArrow(radius: number, left: boolean): string {
   return `M${f(x0)} ${f(y0)}A${radius} ${radius} 0 1 ${left ? 0 : 1} ${f(x1)} ${f(y1)}` + `M${f(side(-1)[0])} ${f(side(-1)[1])}L${f(tip[0])} ${f(tip[1])}L${f(side(1)[0])} ${f(side(1)[1])}`;
 }
 
-/** A pitch circle's teeth: short strokes across it. */
+/** Teeth on a pitch circle: short strokes across it. */
 export function teeth(radius: number, outward = 1): string {
   const count = Math.max(8, Math.min(90, Math.round((2 * Math.PI * radius) / 11)));
   const points: Point[] = [];
@@ -153,7 +153,7 @@ export function rackTeeth(reach: number): string {
   return polyline(points);
 }
 
-/** The sign of a centre of mass: a circle with two dark quarters. */
+/** The symbol of a centre of mass: a circle with two dark quarters. */
 export function centreMark(r = 5): { ring: string; quarters: string } {
   return { ring: circle(0, 0, r), quarters: `M0 0V${-r}A${r} ${r} 0 0 1 ${r} 0ZM0 0V${r}A${r} ${r} 0 0 1 ${-r} 0Z` };
 }

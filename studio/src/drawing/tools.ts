@@ -1,4 +1,4 @@
-// The drawing tools: what each asks for, and what it makes of it.
+// The drawing tools: the points that each asks for, and what it creates from them.
 import { type Point, direction, distance } from "../model/geometry";
 import { GROUND, type Model, type Poses, extent } from "../model/model";
 import {
@@ -14,7 +14,7 @@ export type Asks =
   | "point"
   /** Two points: by dragging, or click and click. */
   | "two"
-  /** Points until Enter or a double click. */
+  /** Points up to Enter or a double click. */
   | "many"
   /** A point, and a direction by dragging. */
   | "ray"
@@ -57,11 +57,11 @@ export interface Context {
   model: Model;
   looks: Looks;
   poses?: Poses;
-  /** What ten pixels are [m]. */
+  /** Ten pixels [m]. */
   reach: number;
 }
 
-/** What the tool makes, or why it cannot. */
+/** What the tool creates, or why it cannot. */
 export function finish(tool: ToolName, targets: readonly Target[], context: Context): Made | string {
   const { model, poses, looks, reach } = context;
   const first = targets[0]!;
@@ -128,7 +128,7 @@ function under(target: Target, { model, looks, reach, poses }: Context): string[
   return own && own !== GROUND && !names.includes(own) ? [own, ...names] : names;
 }
 
-// The two bodies on top; one alone is joined to the ground.
+// The two topmost bodies; a single body is joined to the ground.
 function join(tool: "pin" | "weld", first: Target, context: Context): Made | string {
   const { model, poses } = context;
   const type = tool === "pin" ? "revolute" : "fixed";
@@ -171,7 +171,7 @@ function onJoint(tool: "motor" | "torsion", first: Target, context: Context): Ma
   return addMotor(context.model, joint);
 }
 
-// Pins of the ground first: they are what one drives.
+// Pins on the ground take precedence, since they are usually the driven ones.
 function jointAt(target: Target, { model, poses, reach }: Context, types: readonly string[]): string | null {
   let best: { name: string; score: number } | null = null;
   for (const joint of model.joints) {

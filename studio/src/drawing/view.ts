@@ -1,5 +1,5 @@
-// The canvas: a scene, a camera, and what is drawn over them while a tool is used. It follows the page's state by itself;
-// in the animation loop React takes no part.
+// The canvas: a scene, a camera, and the overlay of the active tool. It follows the page's state by itself; React takes
+// no part in the animation loop.
 import { onOpened } from "../actions";
 import { type Point, distance, toWorld } from "../model/geometry";
 import { GROUND, type Model, extent, markerOf } from "../model/model";
@@ -15,7 +15,7 @@ export interface Preview {
   /** Rubber bands and outlines, in metres. */
   lines: Point[][];
   circle?: { centre: Point; radius: number };
-  /** The point that a click would take, whether something is there to join, and whether the keys lead it: then it has a cross. */
+  /** The point that a click would take, whether there is something to join, and whether the keys move it: then it has a cross. */
   snap?: { at: Point; joins: boolean; keyed?: boolean };
   box?: [Point, Point];
 }
@@ -29,7 +29,7 @@ export class View {
   private ghost: ((frame: ReturnType<typeof player.frame>) => void) | null = null;
   private preview: Preview | null = null;
   private fitted = false;
-  /** The camera as it was set by itself: until a visitor moves it, the first run of a model may set it again. */
+  /** The camera as set automatically: until the user moves it, the first run of a model may set it again. */
   private own: Camera | null = null;
   private ranOnce = false;
   private readonly ends: (() => void)[] = [];
@@ -84,14 +84,14 @@ export class View {
     const { model, poses } = studio.get();
     const box = extent(model, poses ?? undefined);
     const run = player.reachOfRun();
-    // A motion that goes far away would leave the mechanism a dot.
+    // Fitting a motion that goes far away would reduce the mechanism to a dot.
     const near = run && Math.max(run.max[0] - run.min[0], run.max[1] - run.min[1]) < 4 * box.size;
     const motion = near ? joined(box, run) : widened(model, box);
     this.setCamera(fitTo(model.bodies.length > 0 ? withGuides(motion, this.looks) : box, this.size, 0.13, 30));
     this.own = this.camera;
   }
 
-  /** What so many pixels are [m]. */
+  /** Converts pixels to metres. */
   metres(pixels: number): number {
     return pixels / this.camera.scale;
   }
@@ -145,7 +145,7 @@ export class View {
     this.wasPulling = pulling;
   }
 
-  // A guide of the ground is as long as the run needs it.
+  // A guide on the ground is extended to the length needed by the run.
   private stretchGuides(model: Model): boolean {
     let changed = false;
     for (const guide of this.looks.guides) {
@@ -230,7 +230,7 @@ function withGuides(box: { min: Point; max: Point }, looks: Looks): { min: Point
   return { min, max };
 }
 
-// Room for what swings: links reach around the pins that they hang on.
+// Adds room for swinging links, which reach around their pins.
 function widened(model: Model, box: { min: Point; max: Point; size: number }): { min: Point; max: Point } {
   let { min, max } = box;
   for (const joint of model.joints) {

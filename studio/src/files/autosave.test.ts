@@ -7,7 +7,7 @@ const storage = local as unknown as Storage;
 const tab = session as unknown as Storage;
 const draft = (text: string, more = {}) => ({ text, fileName: "a.toml", savedText: "", home: null, before: [], opened: [], time: Date.now(), closed: false, ...more });
 
-/** The page's modules anew, as in a tab of its own. */
+/** Reloads the page's modules, as in a new tab. */
 async function visit() {
   vi.resetModules();
   const autosave = await import("./autosave");

@@ -1,5 +1,5 @@
-// Nothing is lost: the text, the texts before it (which undo leads back to, in fewer or coarser steps) and the page's settings are
-// kept in the browser after every change.
+// Nothing is lost: the text, the previous texts (to which undo leads back, in fewer or coarser steps) and the page's settings are
+// stored in the browser after every change.
 import { newDocument, openText, openingKey, originBefore, say } from "../actions";
 import { type History, change, newHistory } from "../model/history";
 import { readModel } from "../model/model";
@@ -35,7 +35,7 @@ function draftNow(closed: boolean): Draft {
 
 const folderOnly = (home: Home | null): Draft["home"] => (home?.kind === "folder" ? home : null);
 
-// Steps that opened another text lead back to its file, too.
+// Steps that opened another text also lead back to its file.
 function historyOf(draft: Draft): { history: History; origin: Origin } {
   const { before, text, opened, fileName, home, savedText } = draft;
   const origin: Origin = { document: newDocument(), fileName, home, savedText };
@@ -63,7 +63,7 @@ function storeOf(name: "localStorage" | "sessionStorage"): Storage | null {
   }
 }
 
-/** Brings back what was there before the page was closed. */
+/** Restores the state from before the page was closed. */
 export function restore(): boolean {
   storage = storeOf("localStorage");
   restoreSettings();
@@ -78,13 +78,13 @@ export function restore(): boolean {
   return true;
 }
 
-/** Unsaved work of other tabs: of those that are closed, and of those that are open or broke down. */
+/** Unsaved work of other tabs, whether closed, still open or crashed. */
 export function otherDrafts(): KeptDraft[] {
   const { text } = studio.get().history;
   return storage ? listDrafts(storage).filter((one) => one.id !== own && one.text !== one.savedText && one.text !== EMPTY_MODEL && one.text !== text) : [];
 }
 
-/** Opens another tab's draft here. It is this tab's from then on, unless the other one is open still. */
+/** Opens another tab's draft here. It becomes this tab's draft, unless the other tab is still open. */
 export function openDraft(id: string): void {
   const draft = storage && readDraft(storage, id);
   if (!storage || !draft) return;
@@ -105,7 +105,7 @@ function restoreSettings(): void {
     const known = Object.fromEntries(SETTING_KEYS.filter((key) => key in kept).map((key) => [key, kept[key]]));
     studio.set(known);
   } catch {
-    // Settings of another version: the defaults are good.
+    // Settings of another version are ignored: the defaults apply.
   }
 }
 
@@ -126,7 +126,7 @@ export function startAutosave(): void {
     try {
       storage?.setItem(SETTINGS, mine);
     } catch {
-      // They are for comfort only.
+      // Losing the settings does no harm.
     }
   });
   if (from) remember();
@@ -134,20 +134,20 @@ export function startAutosave(): void {
     clearTimeout(timer);
     if (written || studio.get().history.past.length > 0) remember(true);
   });
-  // A page that comes back out of the browser's memory is open again.
+  // A page restored from the browser's memory is open again.
   window.addEventListener("pageshow", (event) => (event as PageTransitionEvent).persisted && written && remember());
   void tellOfLost();
 }
 
 const LOCK = "pintle-studio:";
 
-// A tab holds a lock while it lives: what is neither closed nor held is of a tab that broke down.
+// A tab holds a lock while it is open: a draft that is neither closed nor locked belongs to a crashed tab.
 async function tellOfLost(): Promise<void> {
   const locks = window.navigator?.locks;
   if (!locks || !storage) return;
   void locks.request(LOCK + own, () => new Promise(() => undefined));
   const held = new Set((await locks.query()).held?.map((one) => one.name));
-  if (from && from.id !== own && !held.has(LOCK + from.id)) removeDraft(storage, from.id); // it goes on here
+  if (from && from.id !== own && !held.has(LOCK + from.id)) removeDraft(storage, from.id); // its work continues in this tab
   const lost = otherDrafts().filter((one) => !one.closed && !held.has(LOCK + one.id)).length;
   if (lost > 0) say(`Unsaved work of ${lost === 1 ? "a crashed tab" : `${lost} crashed tabs`} is available.`, { label: "Show it", run: () => studio.set({ dialog: "drafts" }) });
 }

@@ -1,4 +1,4 @@
-// Opening, saving and dropping of files. Where the browser can write a file in place, saving does; else it downloads.
+// Opening, saving and dropping files. Saving writes in place if the browser can do that, else it downloads.
 import { noteSaved, openText, say, showFaults } from "../actions";
 import { type WritableHandle, studio } from "../state";
 import { inFolder, saveInFolderAs, saveToFolder, showFolder } from "./folder";
@@ -18,7 +18,7 @@ export async function openFile(): Promise<void> {
   return inFolder() ? showFolder() : pickFile();
 }
 
-/** A file of the visitor's computer. */
+/** Opens a file from the user's computer. */
 export async function pickFile(): Promise<void> {
   if (pickers.showOpenFilePicker) {
     const picked = await pickers.showOpenFilePicker({ types: TYPES }).catch(() => null);
@@ -32,7 +32,7 @@ export async function pickFile(): Promise<void> {
   input.click();
 }
 
-/** A file that was chosen or dropped; a broken one opens as text, with what is wrong with it. */
+/** Opens a file that was chosen or dropped; a faulty one opens as text, with its complaints. */
 export async function take(file: File, handle: WritableHandle | null = null): Promise<void> {
   if (file.size > LARGEST) return say(`${file.name} has ${Math.round(file.size / 1e6)} MB, too large for a model.`);
   let text: string;
@@ -48,7 +48,7 @@ export async function take(file: File, handle: WritableHandle | null = null): Pr
   say(`Opened ${file.name}. Undo returns to the previous model.`);
 }
 
-/** Saves to where the text came from, or to a new file that is asked for. */
+/** Saves to the file that the text came from, or asks for a new file. */
 export function saveFile(): Promise<void> {
   return inTurn(async () => {
     const { home } = studio.get();
@@ -58,13 +58,13 @@ export function saveFile(): Promise<void> {
   });
 }
 
-/** Asks for a name, whatever the text came from. */
+/** Asks for a name in any case. */
 export async function saveFileAs(): Promise<void> {
   if (inFolder() || !pickers.showSaveFilePicker) studio.set({ dialog: "save" });
   else await inTurn(saveToPicked);
 }
 
-/** Under a name that was typed: in the folder, or as a download. */
+/** Saves under a typed name: in the folder, or as a download. */
 export function saveUnder(name: string): Promise<void> {
   return inTurn(async () => (inFolder() ? saveInFolderAs(name) : downloadModel(tomlName(name))));
 }
@@ -92,7 +92,7 @@ async function writeTo(handle: WritableHandle): Promise<void> {
   say(`Saved ${handle.name}.`);
 }
 
-// The browser gives a download another name where one is taken.
+// The browser gives a download another name if its name is taken.
 function downloadModel(fileName: string): void {
   const { document, history } = studio.get();
   download(new Blob([history.text], { type: "application/toml" }), fileName.replace(/^.*\//, ""));

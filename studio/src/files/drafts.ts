@@ -1,4 +1,4 @@
-// What is kept in the browser of each tab's work: one entry to a tab, so that no tab writes over another's.
+// What the browser stores of each tab's work: one entry per tab, so that no tab overwrites another's.
 import { readModel } from "../model/model";
 import type { Home } from "../state";
 
@@ -6,15 +6,15 @@ export interface Draft {
   text: string;
   fileName: string;
   savedText: string;
-  /** Where it is saved in the folder of `pintle studio`; handles of files cannot be kept. */
+  /** The file in the folder of `pintle studio` to which it is saved; file handles cannot be stored. */
   home: Extract<Home, { kind: "folder" }> | null;
-  /** Texts before, the newest last; as many as there is room for. */
+  /** Previous texts, newest last; as many as there is room for. */
   before: string[];
-  /** The texts before that came from elsewhere: how many texts are behind the step that opened another. */
+  /** Previous texts that came from elsewhere; `behind`: place in `before`, counted from the newest, of the text that a step replaced by another. */
   opened: { behind: number; fileName: string; home: Draft["home"] }[];
-  /** When it was written [ms]. */
+  /** Time of writing [ms]. */
   time: number;
-  /** Its tab has been left. */
+  /** The tab has been closed. */
   closed: boolean;
 }
 
@@ -23,10 +23,10 @@ export interface KeptDraft extends Draft {
 }
 
 const PREFIX = "pintle-studio:draft:";
-/** Where the one draft of all tabs was kept once. */
+/** Former location of the single draft of all tabs. */
 const BEFORE_TABS = "pintle-studio";
 const TAB = "pintle-studio:tab";
-/** So many are kept; of more, the oldest of those that were left go. */
+/** Number of drafts kept; beyond it, the oldest of the closed ones are removed. */
 const MOST = 12;
 
 export function readDraft(storage: Storage, id: string): KeptDraft | null {
@@ -42,13 +42,13 @@ export function readDraft(storage: Storage, id: string): KeptDraft | null {
 
 const keysOf = (storage: Storage) => Array.from({ length: storage.length }, (_, i) => storage.key(i) ?? "").filter((key) => key.startsWith(PREFIX));
 
-/** The newest first. */
+/** Newest first. */
 export function listDrafts(storage: Storage): KeptDraft[] {
   const drafts = keysOf(storage).map((key) => readDraft(storage, key.slice(PREFIX.length))).filter((one) => one !== null);
   return drafts.sort((a, b) => b.time - a.time);
 }
 
-/** False where the browser refuses: its store is full or forbidden. */
+/** False if the browser refuses because its storage is full or forbidden. */
 export function writeDraft(storage: Storage, id: string, draft: Draft): boolean {
   const attempts = [() => undefined, () => (draft = { ...draft, before: [], opened: [] }), () => dropOldest(storage, id)];
   for (const prepare of attempts) {
@@ -58,7 +58,7 @@ export function writeDraft(storage: Storage, id: string, draft: Draft): boolean 
       if (keysOf(storage).length > MOST) dropOldest(storage, id);
       return true;
     } catch {
-      // The next attempt needs less room.
+      // The next attempt needs less space.
     }
   }
   return false;
@@ -68,7 +68,7 @@ export function removeDraft(storage: Storage, id: string): void {
   storage.removeItem(PREFIX + id);
 }
 
-// First those whose text is a file as well.
+// First those whose text is also in a file.
 function dropOldest(storage: Storage, own: string): void {
   const left = listDrafts(storage).filter((one) => one.closed && one.id !== own);
   const gone = left.reverse().find((one) => one.text === one.savedText) ?? left[0];
@@ -77,18 +77,18 @@ function dropOldest(storage: Storage, own: string): void {
 
 const freshId = () => Math.random().toString(36).slice(2, 10);
 
-/** This tab's name in the store, and the draft that it goes on with. */
+/** This tab's name in the storage, and the draft that it continues. */
 export function claimDraft(storage: Storage, tab: Storage | null): { id: string; draft: KeptDraft | null } {
   moveOldDraft(storage);
   const mine = tab?.getItem(TAB);
   const own = mine ? readDraft(storage, mine) : null;
-  // A tab that is doubled has its name from the other, which is still open. A new tab goes on where the last one was left.
+  // A duplicated tab has the name of the original, which is still open. A new tab continues where the last one was closed.
   const draft = own ?? (mine ? null : (listDrafts(storage).find((one) => one.closed) ?? null));
   const id = draft && draft.closed ? draft.id : mine && !own ? mine : freshId();
   try {
     tab?.setItem(TAB, id);
   } catch {
-    // The draft is kept all the same, and found among those that were left.
+    // The draft is stored anyway, and can be found among the closed ones.
   }
   return { id, draft };
 }

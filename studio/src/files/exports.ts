@@ -1,4 +1,4 @@
-// What leaves the page as a file: the run as CSV, the drawing as SVG, the motion as GIF.
+// Files that the page exports: the run as CSV, the drawing as SVG, the motion as GIF.
 import { say } from "../actions";
 import type { Size } from "../drawing/camera";
 import { theView } from "../drawing/canvas";
@@ -23,7 +23,7 @@ export async function exportAs(kind: Export): Promise<void> {
   }
 }
 
-// The run of a changed text takes its time; until then there is the one before.
+// After a change of the text, its run takes time; until then the previous run is exported.
 function sayIfOld(): void {
   const { status } = studio.get().run;
   if (status === "running" || status === "none") say("This is the run before your last change; the new run is not computed yet.");
@@ -39,7 +39,7 @@ function exportCsv(): void {
   download(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }), `${stem()}.csv`);
 }
 
-/** The drawing as it stands, with its colours inside. */
+/** The drawing as shown, with its colours included. */
 export function drawingAsSvg(): Picture {
   const view = theView();
   if (!view) throw new Error("there is no drawing");

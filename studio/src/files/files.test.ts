@@ -17,7 +17,7 @@ describe("share links", () => {
   });
 });
 
-/** The decoder of the format's description, to read back what was written. */
+/** A decoder written from the format's description, to read back the output. */
 function unpack(bytes: readonly number[], count: number): number[] {
   let table: number[][] = [];
   let width = 9;

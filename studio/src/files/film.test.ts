@@ -7,7 +7,7 @@ import type { RunAnswer } from "../kernel/protocol";
 import { extent, readModel } from "../model/model";
 import type { StudioState } from "../state";
 
-/** As much of an element as a drawing needs that nobody sees. */
+/** As much of an element as an invisible drawing needs. */
 class Element {
   children: Element[] = [];
   attributes = new Map<string, string>();

@@ -1,4 +1,4 @@
-// The motion of a run as a GIF: filmed from a replay and a drawing of its own, so that the page may play, be edited or be hidden meanwhile.
+// The motion of a run as a GIF: filmed from a separate replay and drawing, so that the page may play, be edited or be hidden meanwhile.
 import type { View } from "../drawing/view";
 import { Scene, type Frame } from "../drawing/scene";
 import { make } from "../drawing/svg";
@@ -17,7 +17,7 @@ export interface Picture {
   height: number;
 }
 
-/** As the page shows it at this moment: its camera, grid, arrows, traces and ghost. */
+/** Like the page at this moment: with its camera, grid, arrows, traces and ghost. */
 export class Film {
   readonly svg = make("svg", { class: "scene" });
   private readonly scene = new Scene(this.svg);
@@ -47,7 +47,7 @@ export class Film {
 }
 
 export async function filmAsGif(film: Film, speed: number, picture: (svg: SVGSVGElement, width: number) => Picture): Promise<Uint8Array> {
-  // The film lasts as long as it does on the screen, within reason.
+  // The film lasts as long as on the screen, within limits.
   const seconds = Math.min(Math.max(film.end / speed, 1), 12);
   const frames = Math.round(seconds * FRAMES_PER_SECOND);
   const { width, height } = picture(film.svg, GIF_WIDTH);
@@ -63,7 +63,7 @@ export async function filmAsGif(film: Film, speed: number, picture: (svg: SVGSVG
   return writer.finish();
 }
 
-// Waits for no frame of the page, of which a hidden tab has none.
+// Does not wait for a frame of the page, since a hidden tab has none.
 function loaded(svg: string): Promise<HTMLImageElement> {
   return new Promise((resolve, reject) => {
     const image = new Image();

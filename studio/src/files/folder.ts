@@ -1,4 +1,4 @@
-// The folder of `pintle studio`, where the page comes from that program: models are opened from it and saved into it.
+// The folder of `pintle studio`, if that program serves the page: models are opened from it and saved into it.
 import { asFault, noteSaved, openText, say, showFaults } from "../actions";
 import { keepNamedFile } from "../kernel/named-files";
 import { type NativeServer, sessionToken } from "../kernel/native";
@@ -13,7 +13,7 @@ export const inFolder = (): boolean => server !== null;
 
 const BEGUN = "pintle-studio:begun";
 
-/** Looks for the program behind the page, and opens the model that it was started with: once in a tab, not at each reload. */
+/** Looks for the program that serves the page, and opens the model it was started with: once per tab, not at each reload. */
 export async function startFolder(mayOpen = true): Promise<void> {
   server = await kernel.native().catch(() => null);
   if (!server) return;
@@ -34,13 +34,13 @@ export async function startFolder(mayOpen = true): Promise<void> {
   say(`This is your unsaved work on ${model}.`, { label: "Open the file", run: open });
 }
 
-// The file may have been written by another program since.
+// Another program may have written the file since.
 async function refresh(path: string): Promise<void> {
   const now = await server?.open(path).catch(() => null);
   if (now && now.text !== studio.get().history.text) await openFromFolder(path);
 }
 
-// For as long as the tab is there.
+// For the lifetime of the tab.
 function kept(key: string): string | null {
   try {
     return sessionStorage.getItem(key);
@@ -80,14 +80,14 @@ export async function openFromFolder(path: string): Promise<void> {
   }
 }
 
-/** Saves to where the text came from; a new file is asked its name. */
+/** Saves to where the text came from; asks for a name if it is new. */
 export async function saveToFolder(): Promise<void> {
   const { home } = studio.get();
   if (home?.kind !== "folder" || home.folder !== server?.folder) return studio.set({ dialog: "save" });
   await write(home.path, home.hash);
 }
 
-/** Saves under a name. A file of that name that is not the one that is open is not overwritten unasked. */
+/** Saves under a name. A file of that name other than the open one is not overwritten without asking. */
 export async function saveInFolderAs(name: string): Promise<void> {
   const path = tomlName(name);
   const { home } = studio.get();

@@ -1,8 +1,8 @@
-// A GIF of few colours: drawings have a paper, some lines and some fills. The colours are those of the first picture; LZW.
+// A GIF with few colours: drawings have a background, some lines and some fills. The colours are those of the first picture; LZW.
 
-/** Two colours nearer than this (squared distance) are one. */
+/** Two colours closer than this (squared distance) count as equal. */
 const SAME = 48;
-/** What the film needs later and the first picture may lack: the reds of force arrows. */
+/** Colours that the film needs later but the first picture may lack: the reds of force arrows. */
 const ALWAYS = [0xcf2e2e, 0xe68080, 0xff6b63, 0x7f3531];
 
 export class GifWriter {
@@ -31,7 +31,7 @@ export class GifWriter {
     }
     this.bytes.push(0x21, 0xff, 11);
     this.text("NETSCAPE2.0");
-    this.bytes.push(3, 1, 0, 0, 0); // for ever
+    this.bytes.push(3, 1, 0, 0, 0); // loop forever
   }
 
   private indexOf(colour: number): number {
@@ -53,7 +53,7 @@ export class GifWriter {
     this.bytes.push(value & 255, value >> 8);
   }
 
-  /** Adds a picture: RGBA, row by row. Pixels that did not change are left out. */
+  /** Adds a picture: RGBA, row by row. Unchanged pixels are left out. */
   add(rgba: Uint8ClampedArray): void {
     if (this.colours.length === 0) this.begin(rgba);
     const indices = new Uint8Array(this.width * this.height);
@@ -86,7 +86,7 @@ function difference(a: number, b: number): number {
   return ((a >> 16) - (b >> 16)) ** 2 + (((a >> 8) & 255) - ((b >> 8) & 255)) ** 2 + ((a & 255) - (b & 255)) ** 2;
 }
 
-// At most 255, the commonest first: index 255 stands for "as before".
+// At most 255, most frequent first: index 255 means "unchanged".
 function commonColours(rgba: Uint8ClampedArray): number[] {
   const counts = new Map<number, number>();
   for (let i = 0; i + 3 < rgba.length; i += 4) {

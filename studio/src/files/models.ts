@@ -1,11 +1,11 @@
-// What a file holds as a model's text, wherever it comes from.
+// The text of a model from the content of a file, whatever its source.
 import type { ModelTree } from "../kernel/protocol";
 import { kernel } from "../play/kernel-session";
 
 export interface ModelFile {
   text: string;
   fileName: string;
-  /** It was JSON: the text is that of a new file. */
+  /** The file was JSON: its text counts as a new file. */
   converted: boolean;
 }
 
@@ -18,11 +18,11 @@ async function toml(json: string): Promise<string | undefined> {
   try {
     return (await kernel.write(JSON.parse(json) as ModelTree)).text;
   } catch {
-    return undefined; // opened as it is, with what is wrong with it
+    return undefined; // opened unchanged, with its complaints
   }
 }
 
-/** A name that a model may be saved under: what is written is TOML. */
+/** A name for saving a model: the written format is TOML. */
 export function tomlName(typed: string): string {
   return `${typed.trim().replace(/\.(toml|json)$/i, "") || "untitled"}.toml`;
 }

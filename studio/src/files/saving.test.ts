@@ -7,7 +7,7 @@ import { studio } from "../state";
 import { saveFile, saveUnder, take } from "./disk";
 import { openFromFolder, startFolder } from "./folder";
 
-/** The folder of a server, where a text is its own hash. */
+/** The folder of a server, in which a text serves as its own hash. */
 const files = new Map<string, string>();
 const server = {
   version: "0",

@@ -1,4 +1,4 @@
-// A link that holds the whole model: compressed, in the part of the address that is never sent to a server.
+// A link that contains the whole model: compressed, in the part of the address that is never sent to a server.
 import { openText, say } from "../actions";
 import { sessionTokenIn } from "../kernel/native";
 import { EMPTY_MODEL } from "../model/operations";
@@ -33,7 +33,7 @@ export async function encodeModel(text: string): Promise<string> {
   return btoa(binary).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 }
 
-/** Null where it is not a model that was packed here. */
+/** Null if it is not a model packed by this program. */
 export async function decodeModel(code: string): Promise<string | null> {
   try {
     const binary = atob(code.replace(/-/g, "+").replace(/_/g, "/"));
@@ -58,7 +58,7 @@ export async function shareLink(): Promise<void> {
 
 const isLocal = (): boolean => /^(localhost|127\.[\d.]+|\[::1\])?$/.test(location.hostname);
 
-// Until the next change: a reload would bring back the link's model over what was done since.
+// Removed at the next change: otherwise a reload would replace later work by the link's model.
 function showInAddress(link: string): void {
   const { history } = studio.get();
   window.history.replaceState(null, "", link);
@@ -73,7 +73,7 @@ function clearAddress(): void {
   if (location.hash.startsWith(MARK)) window.history.replaceState(null, "", location.href.replace(/#.*$/, ""));
 }
 
-/** Opens the model of the page's address, if there is one. From then on it is a draft like any other. */
+/** Opens the model in the page's address, if there is one. From then on it is a draft like any other. */
 export async function openFromAddress(): Promise<boolean> {
   if (!location.hash.startsWith(MARK)) return false;
   const text = await decodeModel(location.hash.slice(MARK.length));
@@ -89,7 +89,7 @@ export async function openFromAddress(): Promise<boolean> {
   return true;
 }
 
-/** The address has been changed in a page that is open: another link, or the address of `pintle studio` started anew. */
+/** The address of an open page has been changed: to another link, or to the address of a restarted `pintle studio`. */
 export function followAddress(): void {
   if (sessionTokenIn(location.hash)) location.reload();
   else void openFromAddress();

@@ -1,4 +1,4 @@
-// The collection: every mechanism of the repository, as a text, and the files that they name.
+// The collection: the text of every mechanism of the repository, and the files that these name.
 import { keepNamedFile } from "../kernel/named-files";
 
 const files = import.meta.glob("../../../mechanisms/*.toml", { query: "?raw", import: "default", eager: true }) as Record<string, string>;

@@ -1,4 +1,4 @@
-// Saving is done one file after the other: each must know what the one before has left.
+// Files are saved one after another: each save must know the result of the previous one.
 let last: Promise<unknown> = Promise.resolve();
 
 export function inTurn<T>(task: () => Promise<T>): Promise<T> {

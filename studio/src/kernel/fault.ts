@@ -1,6 +1,6 @@
 import type { Fault } from "./protocol";
 
-/** What every rejected promise of the kernel carries. */
+/** The error of every rejected promise of the kernel. */
 export class KernelFault extends Error {
   constructor(readonly fault: Fault) {
     super(fault.message);

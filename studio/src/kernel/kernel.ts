@@ -1,5 +1,5 @@
-// The page's side of the kernel: typed calls that answer with promises. Five workers, each made when it is first needed: for quick
-// questions, for the motion while it plays, for checks, runs and reports; so that nothing that takes long holds up anything else.
+// The page's side of the kernel: typed calls that return promises. Five workers, each started when first needed: for quick
+// questions, for the motion during playback, for checks, runs and reports; so that no slow call delays the others.
 import { KernelFault } from "./fault";
 import type { FromWorker, ToWorker } from "./messages";
 import { withNamedFiles } from "./named-files";
@@ -12,20 +12,20 @@ import type {
 export { KernelFault };
 
 export interface RunOptions {
-  /** "native": by the server of `pintle studio`, where the page comes from it. */
+  /** "native": on the server of `pintle studio`, if it serves the page. */
   where?: "browser" | "native";
   onProgress?: (progress: RunProgress) => void;
-  /** Other settings than the model's, by path: {"simulate.tolerance": "1e-3"}. */
+  /** Settings that differ from the model's, by path: {"simulate.tolerance": "1e-3"}. */
   set?: Record<string, string>;
 }
 
 export interface RunHandle {
   result: Promise<RunAnswer>;
-  /** Ends the run; `result` gives what was computed until then, outcome "interrupted". */
+  /** Ends the run; `result` then has what was computed so far, with outcome "interrupted". */
   cancel(): void;
 }
 
-/** Kinematic drag: the model is read once, then assembled in every frame. */
+/** Kinematic drag: the model is read once and assembled in every frame. */
 export interface DragSession {
   bodies: string[];
   joints: string[];
@@ -42,7 +42,7 @@ export interface LiveSession {
 }
 
 export interface LiveOptions {
-  /** Begin where another session of (about) the same model stands: bodies are matched by name. */
+  /** Start in the state of another session of (nearly) the same model: bodies are matched by name. */
   like?: LiveSession;
 }
 
@@ -50,15 +50,15 @@ export interface Kernel {
   schema(): Promise<Record<string, unknown>>;
   catalog(): Promise<Catalog>;
   read(text: string): Promise<ReadAnswer>;
-  /** The tree as TOML. Comments are not in the tree. */
+  /** The tree as TOML. The tree contains no comments. */
   write(model: ModelTree): Promise<TextAnswer>;
   check(text: string): Promise<CheckReport>;
   openDrag(text: string): Promise<DragSession>;
   openLive(text: string, options?: LiveOptions): Promise<LiveSession>;
   run(text: string, options?: RunOptions): RunHandle;
-  /** The page of `pintle report` for a run of the model, which is made once more for it. */
+  /** The page of `pintle report` for a run of the model, which is run again for this. */
   report(text: string, onProgress?: (progress: RunProgress) => void): Promise<string>;
-  /** The server of `pintle studio`: files of its folder, native runs. Null where the page comes from another server. */
+  /** The server of `pintle studio`: files of its folder, native runs. Null if another server serves the page. */
   native(): Promise<NativeServer | null>;
   /** Ends the workers. */
   stop(): void;
@@ -70,7 +70,7 @@ interface Pending {
   resolve(value: unknown): void;
   reject(error: KernelFault): void;
   onProgress?: (progress: RunProgress) => void;
-  /** Set with the first call to `hurry`. */
+  /** Set by the first call to `hurry`. */
   fault?: Fault;
   timer?: ReturnType<typeof setTimeout>;
 }
@@ -85,7 +85,7 @@ interface Call {
   result: Promise<unknown>;
 }
 
-/** One worker and the calls it has not answered. A worker that dies is replaced; its calls are rejected. */
+/** One worker and its unanswered calls. A worker that dies is replaced; its calls are rejected. */
 class Line {
   private worker: Worker | undefined;
   private pending = new Map<number, Pending>();
@@ -108,7 +108,7 @@ class Line {
     return { id, result };
   }
 
-  /** Ends the worker unless the call answers within the grace, counted from when its turn comes. */
+  /** Ends the worker unless the call is answered within the grace period, which starts when its turn comes. */
   hurry(id: number, fault: Fault) {
     const call = this.pending.get(id);
     if (!call) return;
@@ -116,7 +116,7 @@ class Line {
     this.watchFirst();
   }
 
-  // A worker answers in the order in which it was asked: only the first call has begun.
+  // A worker answers in the order of the calls: only the first call has begun.
   private watchFirst() {
     const [first] = this.pending.values();
     if (!first?.fault || first.timer !== undefined) return;
@@ -124,7 +124,7 @@ class Line {
     first.timer = setTimeout(() => this.abandon(fault), kGrace);
   }
 
-  /** Ends the worker; the next call starts another one. */
+  /** Ends the worker; the next call starts a new one. */
   abandon(fault: Fault) {
     this.worker?.terminate();
     this.worker = undefined;
@@ -165,7 +165,7 @@ class Line {
   }
 }
 
-/** How long a run that was told to stop may take to hand over what it has [ms]. */
+/** Time within which a stopped run must hand over its results [ms]. */
 const kGrace = 3000;
 
 export interface KernelPlace {

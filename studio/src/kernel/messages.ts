@@ -1,4 +1,4 @@
-// What goes between the page and a worker.
+// Messages between the page and a worker.
 import type { Fault, RunProgress } from "./protocol";
 
 export interface ToWorker {
@@ -6,7 +6,7 @@ export interface ToWorker {
   call: string;
   args: unknown;
   kernelUrl: string;
-  /** An address that can be read as long as the call should go on. */
+  /** An address that is readable as long as the call should continue. */
   goOn?: string;
 }
 

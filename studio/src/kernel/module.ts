@@ -3,14 +3,14 @@ import type { Fault, RunProgress } from "./protocol";
 
 export interface KernelAnswer {
   value: unknown;
-  /** The arrays inside `value`, for the transfer to another thread. */
+  /** The arrays inside `value`, to be transferred to another thread. */
   arrays: Float64Array[];
 }
 
 export interface KernelModule {
-  /** Throws `{fault}`. `onProgress` gives false to end a run. */
+  /** Throws `{fault}`. `onProgress` returns false to end a run. */
   call(name: string, args: unknown, onProgress?: (progress: RunProgress) => boolean): KernelAnswer;
-  /** After a call that broke down in the module itself, it cannot be used any more. */
+  /** After a call that crashed the module itself, it can no longer be used. */
   readonly broken: boolean;
 }
 
@@ -29,7 +29,7 @@ interface Exports {
 
 const kErrnoUnsupported = 52; // WASI's ENOSYS
 
-/** Puts the arrays in the places of {"f64": index}. */
+/** Inserts the arrays in place of {"f64": index}. */
 export function withArrays(value: unknown, arrays: Float64Array[]): unknown {
   if (Array.isArray(value)) {
     value.forEach((entry, i) => (value[i] = withArrays(entry, arrays)));
@@ -46,7 +46,7 @@ export function withArrays(value: unknown, arrays: Float64Array[]): unknown {
   return record;
 }
 
-/** The value of an answer, or the fault in it thrown. */
+/** The value of an answer; throws if the answer is a fault. */
 export function valueOf(text: string, arrays: Float64Array[]): KernelAnswer {
   const answer = JSON.parse(text) as { value?: unknown; fault?: Fault };
   if (answer.fault) throw { fault: answer.fault };
@@ -60,7 +60,7 @@ class Module implements KernelModule {
   private readonly encoder = new TextEncoder();
   private exports!: Exports;
 
-  /** What the module asks of its host: clocks, standard output, an end. There are no files. */
+  /** What the module requires of its host: clocks, standard output, exit. There are no files. */
   imports(): WebAssembly.Imports {
     const memory = () => new DataView(this.exports.memory.buffer);
     const wasi: Record<string, (...args: never[]) => number> = {
@@ -133,7 +133,7 @@ class Module implements KernelModule {
   }
 }
 
-/** From the module's bytes, or from a response that brings them. */
+/** From the module's bytes, or from a response that delivers them. */
 export async function startModule(source: BufferSource | Response): Promise<KernelModule> {
   const module = new Module();
   const imports = module.imports();
@@ -159,7 +159,7 @@ export async function loadKernel(url: string): Promise<KernelModule> {
   }
   if (!response.ok) throw missing(`${response.status} for ${url}`);
   try {
-    // Servers that do not know the type of .wasm files would refuse to compile while loading.
+    // Responses without the proper type of .wasm files cannot be compiled while loading.
     const known = response.headers.get("content-type")?.startsWith("application/wasm");
     return await startModule(known ? response : await response.arrayBuffer());
   } catch (error) {

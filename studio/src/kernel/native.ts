@@ -1,4 +1,4 @@
-// The server of `pintle studio`, where the page comes from it: the native kernel for long runs, and the models of the folder that it
+// The server of `pintle studio`, if it serves the page: the native kernel for long runs, and the models of the folder in which it
 // was started in. docs/reference/studio-server.md
 import { KernelFault } from "./fault";
 import { withNamedFiles } from "./named-files";
@@ -6,7 +6,7 @@ import { unpacked } from "./packed";
 import type { RunAnswer, RunProgress } from "./protocol";
 
 export interface FolderModel {
-  /** Below the folder: "press/toggle.toml". */
+  /** Relative to the folder: "press/toggle.toml". */
   path: string;
   size: number;
 }
@@ -14,13 +14,13 @@ export interface FolderModel {
 export interface OpenedModel {
   path: string;
   text: string;
-  /** Of what is in the file; shown again when it is saved. */
+  /** Of the file's content; sent back when the file is saved. */
   hash: string;
-  /** The texts of the files that the model names, as far as they are in the folder. */
+  /** The texts of the files that the model names, if they are in the folder. */
   files: Record<string, string>;
 }
 
-/** The file was changed by something else since it was opened; `text` is null where it is gone. */
+/** The file was changed by something else since it was opened; `text` is null if it was deleted. */
 export interface Conflict {
   text: string | null;
   hash: string | null;
@@ -28,13 +28,13 @@ export interface Conflict {
 
 export interface NativeServer {
   version: string;
-  /** The folder's own name. */
+  /** The folder's name. */
   folder: string;
   /** The model that the program was started with. */
   model: string | null;
   list(): Promise<FolderModel[]>;
   open(path: string): Promise<OpenedModel>;
-  /** `expected` is the hash of what is replaced, null for a new file. */
+  /** `expected` is the hash of the content to be replaced, null for a new file. */
   save(path: string, text: string, expected: string | null): Promise<{ hash: string } | { conflict: Conflict }>;
   run(text: string, set: Record<string, string>, onProgress?: (progress: RunProgress) => void): { result: Promise<RunAnswer>; cancel(): void };
 }
@@ -44,7 +44,7 @@ const kTokenKey = "pintle.token";
 
 export const sessionTokenIn = (hash: string): string | undefined => /(?:^#|[#&])token=([0-9a-f]+)/.exec(hash)?.[1];
 
-/** The token of this session: in the address when the page is opened, then kept for reloads of this tab. */
+/** The token of this session: in the address when the page is opened, then stored for reloads of this tab. */
 export function sessionToken(location: Location = window.location): string | null {
   const found = sessionTokenIn(location.hash);
   try {
@@ -82,7 +82,7 @@ class Questions {
   }
 }
 
-/** The server, or null where the page comes from another one. */
+/** The server, or null if another server serves the page. */
 export async function findNativeServer(base = new URL("api/", document.baseURI).href, token = sessionToken()): Promise<NativeServer | null> {
   if (!token) return null;
   const questions = new Questions(base, token);

@@ -1,4 +1,4 @@
-// Answers in one piece, as the native kernel sends them: lengths, arrays, text. studio/kernel/calls.h
+// Answers packed into one buffer, as the native kernel sends them: lengths, arrays, text. studio/kernel/calls.h
 import { valueOf, type KernelAnswer } from "./module";
 
 /** Throws `{fault}`. */

@@ -1,25 +1,25 @@
-// What the page and the kernel in its worker say to each other. Keys in JSON are as the C++ writes them; SI and radians
+// The messages between the page and the kernel in its worker. Keys in JSON are those of the C++ code; SI and radians
 // throughout. Version 1.
 
-/** An error that the user can read: what is wrong, what to try, and where. */
+/** An error for the user: what is wrong, what to try, and where. */
 export interface Fault {
   message: string;
   hint: string;
-  /** From the page's side of the kernel. missing: there is no kernel to ask; ended: the call was ended unanswered, along with its worker. */
+  /** Set on the page's side of the kernel. missing: there is no kernel; ended: the call was ended without an answer, along with its worker. */
   kind?: "missing" | "ended";
   where?: { line: number; column: number; key: string };
-  /** All complaints about the model, where it was the model. */
+  /** All complaints about the model, if it is the cause. */
   complaints?: Complaint[];
-  /** Joints that have part in it. */
+  /** Joints that are involved. */
   joints?: string[];
 }
 
-/** Something to say about a place in a text. Line and column count from 1 (characters, not bytes); 0: unknown. */
+/** A remark about a place in a text. Line and column count from 1 (characters, not bytes); 0: unknown. */
 export interface Complaint {
   severity: "error" | "warning";
   line: number;
   column: number;
-  /** Characters from the column on that are meant; at least 1. */
+  /** Number of characters concerned, from the column on; at least 1. */
   length: number;
   /** The key in the model: "joint.A.stiffness". */
   key: string;
@@ -41,7 +41,7 @@ export interface Marker {
   axis: number;
 }
 
-/** The same model with every expression evaluated: what a drawing needs. Poses are where the model states them. */
+/** The same model with every expression evaluated, as needed for drawing. Poses are those stated by the model. */
 export interface ResolvedModel {
   name: string;
   description: string;
@@ -86,9 +86,9 @@ export interface ResolvedModel {
 
 export interface ReadAnswer {
   ok: boolean;
-  /** The tree, where the text is TOML or JSON at all. */
+  /** The tree, if the text is valid TOML or JSON. */
   model?: ModelTree;
-  /** Where the model is valid. */
+  /** If the model is valid. */
   resolved?: ResolvedModel;
   complaints: Complaint[];
 }
@@ -104,29 +104,29 @@ export interface CatalogKey {
   name: string;
   /** SI unit of the value: "N/m", "-" for a pure number. */
   unit: string;
-  /** The unit in joints whose free coordinate is an angle, where it is another one. */
+  /** The unit in joints whose free coordinate is an angle, if it differs. */
   angular_unit?: string;
   meaning: string;
-  /** Absent: the key must be stated, or is found otherwise. */
+  /** If absent, the key must be stated or is determined in another way. */
   default?: number | string;
-  /** What it means that the key is absent, where that is no number. */
+  /** What an absent key means, if that is not a number. */
   otherwise?: string;
-  /** Smallest value that is taken. */
+  /** Smallest accepted value. */
   minimum?: number;
-  /** The key is one of these words. */
+  /** The key must be one of these words. */
   words?: string[];
   /** A list of any length. */
   list?: boolean;
 }
 
-/** Joint types and laws, with what a form needs. */
+/** Joint types and laws, with the data for forms. */
 export interface Catalog {
   joint_types: {
     word: string;
     meaning: string;
     /** Free coordinates: "angle", "slide". */
     free: string[];
-    /** What it forbids, in the order of a law's components. */
+    /** What it constrains, in the order of a law's components. */
     gap: string[];
     geometry: CatalogKey[];
     laws: string[];
@@ -135,7 +135,7 @@ export interface Catalog {
   methods: string[];
 }
 
-/** What `pintle check --json` prints, with what to do about it. */
+/** The output of `pintle check --json`, with advice. */
 export interface CheckReport {
   passed: boolean;
   bodies: number;
@@ -176,7 +176,7 @@ export interface Warning {
 export interface AssemblyAnswer {
   ok: boolean;
   poses: Float64Array;
-  /** Distance that each joint stays open [m], in the order of the model. */
+  /** Distance by which each joint remains open [m], in the order of the model. */
   gaps: Float64Array;
   /** Why it does not close. */
   reason?: Fault;
@@ -198,9 +198,9 @@ export interface Column {
   of: string;
   /** "x", "angle", "fx", "m", "effort", ... */
   quantity: string;
-  /** "world" or "joint" where a force has axes, else "". */
+  /** "world" or "joint" for a force, else "". */
   frame: string;
-  /** The body that feels the force, else "". */
+  /** The body on which the force acts, else "". */
   feels: string;
 }
 
@@ -247,7 +247,7 @@ export interface EnergyAccount {
   drift: number;
 }
 
-/** A pin whose model states a bearing. Values that cannot be had are null. */
+/** A pin for which the model states a bearing. Values that are not available are null. */
 export interface BearingAnswer {
   joint: string;
   equivalent_load: number;
@@ -256,7 +256,7 @@ export interface BearingAnswer {
   static_safety: number;
   peak_pressure: number;
   peak_pv: number;
-  /** Sizes that are missing, and where the formulas do not hold. */
+  /** Missing dimensions, and cases in which the formulas do not hold. */
   wants: string[];
   remarks: string[];
 }
@@ -279,23 +279,23 @@ export interface RunAnswer {
   notes: string[];
   /** Why the outcome is not "completed". */
   message: string;
-  /** Why it ended early, and the joints that the reason names. Everything before it is in `values`. */
+  /** Why it ended early, and the joints named by the reason. Everything up to that time is in `values`. */
   stopped?: { time: number; joints: string[]; reason: string; hint: string };
 }
 
 export interface RunProgress {
-  /** Of the whole run, estimated; never falls. */
+  /** Estimated fraction of the whole run; never decreases. */
   fraction: number;
   /** Model time [s] reached in this integration. */
   t: number;
   duration: number;
-  /** Integrations of one run: the pilot (1), the reported one (2), finer ones; 0 while it is assembled. */
+  /** Integrations of one run: the pilot (1), the reported one (2), finer ones; 0 during assembly. */
   pass: number;
   wall_seconds: number;
   seconds_left: number | null;
 }
 
-/** A soft spring between a point of a body and a point of the world. Stiffness 0 or absent: chosen from the model. */
+/** A soft spring between a point of a body and a point of the world. Stiffness 0 or absent: chosen according to the model. */
 export interface Pull {
   body: string;
   point: [number, number];
@@ -307,7 +307,7 @@ export interface LiveStart {
   bodies: string[];
   joints: string[];
   poses: Float64Array;
-  /** A typical force of the mechanism at its start, for the length of arrows [N]. */
+  /** A typical force of the mechanism at its start, used for the length of arrows [N]. */
   force_scale: number;
   notes: string[];
 }
@@ -321,10 +321,10 @@ export interface LiveFrame {
   /** 3 per joint: fx, fy [N] (world axes) and couple [N*m] about the second marker, on the second body. */
   joint_forces: Float64Array;
   energy: { kinetic: number; potential: number; dissipated: number; supplied: number };
-  /** True when the wall time allowed did not suffice for dt: the motion is slower than asked. */
+  /** True if the allowed wall time was not enough for dt: the motion is slower than requested. */
   behind: boolean;
   /** Wall time of the kernel in this call [s]. */
   cost: number;
-  /** The motion stands still because no step could be made. It goes on when the pull is released or changed. */
+  /** The motion is stopped because no step was possible. It continues when the pull is released or changed. */
   error: Fault | null;
 }

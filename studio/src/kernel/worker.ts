@@ -1,4 +1,4 @@
-// The kernel in its worker: takes calls, answers them. Runs off the page's thread, so that a long call never holds up a frame.
+// The kernel in its worker: receives calls and answers them. It runs outside the page's thread, so that a long call never delays a frame.
 import { loadKernel, type KernelModule } from "./module";
 import type { FromWorker, ToWorker } from "./messages";
 import type { Fault } from "./protocol";
@@ -9,7 +9,7 @@ function send(message: FromWorker, transfer: Transferable[] = []) {
   (self as unknown as DedicatedWorkerGlobalScope).postMessage(message, transfer);
 }
 
-/** True once the page has taken back the address that stands for "go on": the only sign that reaches a busy worker. */
+/** True once the page has revoked the address that stands for "go on": the only signal that reaches a busy worker. */
 function isCancelled(goOn: string | undefined): boolean {
   if (!goOn) return false;
   try {
@@ -22,7 +22,7 @@ function isCancelled(goOn: string | undefined): boolean {
   }
 }
 
-/** The module; another one in place of one that broke down or could not be loaded. */
+/** The module; a new one if it crashed or could not be loaded. */
 async function ready(url: string): Promise<KernelModule> {
   if (kernel && (await kernel.catch(() => undefined))?.broken !== false) kernel = undefined;
   kernel ??= loadKernel(url);

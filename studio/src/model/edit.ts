@@ -1,5 +1,5 @@
-// Edits of a model's text that change what they must and nothing else: comments, order and layout stay. A draft collects
-// edits against one reading of the text and applies them together, so that one step of a user is one step of undo.
+// Edits of a model's text that change only what they must: comments, order and layout are kept. A draft collects
+// edits based on one reading of the text and applies them together, so that one user action is one undo step.
 import { withRemark } from "./remarks";
 import { type Document, type Span, type TableNode, nodeAt, parseToml, writeKey } from "./toml";
 
@@ -9,7 +9,7 @@ interface Replacement {
   text: string;
 }
 
-/** A value in TOML: numbers are written short, texts quoted. */
+/** A TOML value: numbers are written short, texts in quotes. */
 export type Literal = string | number | boolean | Literal[] | { [key: string]: Literal };
 
 export function writeLiteral(value: Literal): string {
@@ -22,7 +22,7 @@ export function writeLiteral(value: Literal): string {
     .join(", ")} }`;
 }
 
-/** At most 12 digits, so that 0.1 + 0.2 is written 0.3. */
+/** At most 12 digits, so that 0.1 + 0.2 is written as 0.3. */
 export function writeNumber(value: number): string {
   if (!Number.isFinite(value)) return "0";
   const text = String(Number(value.toPrecision(12)));
@@ -40,7 +40,7 @@ export class Draft {
     this.document = typeof source === "string" ? parseToml(source) : source;
   }
 
-  /** Sets the value at `path`, which may or may not be there. */
+  /** Sets the value at `path`, whether or not it exists. */
   set(path: readonly string[], value: Literal, remark = ""): this {
     const literal = writeLiteral(value);
     const found = nodeAt(this.document.root, path);
@@ -55,14 +55,14 @@ export class Draft {
     return this;
   }
 
-  /** The studio's comment behind a value; empty: none. A value inside of braces has no line of its own, and gets none. */
+  /** The studio's comment after a value; empty: none. A value inside braces has no line of its own, and gets none. */
   remark(path: readonly string[], remark: string): this {
     const found = nodeAt(this.document.root, path);
     if (found?.statement) this.remarkBehind(found.statement.to, remark);
     return this;
   }
 
-  /** The comment behind a body's header that says its shape. */
+  /** The comment after a body's header that states its shape. */
   shape(body: string, words: string): this {
     const found = nodeAt(this.document.root, ["body", body]);
     if (found?.kind === "table" && found.form === "header") this.remarkBehind(found.to, words);
@@ -75,7 +75,7 @@ export class Draft {
     if (end) this.replace(end.from, end.to, end.text);
   }
 
-  /** Removes a value, or a table with all that is in it. */
+  /** Removes a value, or a table with its content. */
   remove(path: readonly string[]): this {
     const { text, sections, root } = this.document;
     const found = nodeAt(root, path);
@@ -123,7 +123,7 @@ export class Draft {
     if (!this.isCut(from)) this.replacements.push({ from, to, text: "" });
   }
 
-  /** Renames the last key of `path`, in headers and statements; references to it are the caller's. */
+  /** Renames the last key of `path`, in headers and statements; references to it are left to the caller. */
   rename(path: readonly string[], to: string): this {
     const { text, sections, root } = this.document;
     for (const section of sections) {
@@ -173,7 +173,7 @@ export class Draft {
   }
 
   private addFresh(path: readonly string[], key: string, literal: string): void {
-    // The markers of a fresh body stand in its own table: markers.A = [...]
+    // The markers of a new body are in its own table: markers.A = [...]
     const dotted = path[0] === "body" && path.length === 3 && path[2] === "markers";
     const home = dotted ? path.slice(0, 2) : path;
     const name = home.join("\u0000");
@@ -182,7 +182,7 @@ export class Draft {
     this.fresh.set(name, entry);
   }
 
-  /** The text with every edit in it. */
+  /** The text with all edits applied. */
   apply(): string {
     let { text } = this.document;
     const ordered = this.replacements.map((one, order) => ({ ...one, order }));
@@ -194,7 +194,7 @@ export class Draft {
   }
 }
 
-/** The text with the value at `path` on a line of its own, out of the braces that it is in: `a = { b = 1 }` becomes `a.b = 1`. */
+/** The text with the value at `path` moved out of its braces to a line of its own: `a = { b = 1 }` becomes `a.b = 1`. */
 export function unfolded(text: string, path: readonly string[]): string {
   const { root } = parseToml(text);
   for (let depth = 1; depth < path.length; depth++) {
@@ -210,7 +210,7 @@ export function unfolded(text: string, path: readonly string[]): string {
   return text;
 }
 
-// Of the table's own line; a.b = 1 makes a table without one.
+// The statements of the table's entries; a table made by a.b = 1 has none of its own.
 function* statementsIn(table: TableNode): Generator<Span> {
   for (const node of table.entries.values()) {
     if (node.statement) yield node.statement;
@@ -225,7 +225,7 @@ function rank(path: readonly string[]): number {
   return at < 0 ? ORDER.length : at;
 }
 
-// A new table goes behind the last table whose kind comes no later than its own.
+// A new table is inserted after the last table whose kind does not come later than its own.
 function addSection(text: string, path: readonly string[], lines: Map<string, string>, remark?: string): string {
   const body = [...lines].map(([key, value]) => `${key} = ${value}\n`).join("");
   const block = `[${path.map(writeKey).join(".")}]${remark ? `  # ${remark}` : ""}\n${body}`;

@@ -1,5 +1,5 @@
-// Values of expressions, for drawing before the kernel has answered. Dimensions are the kernel's to check; here only the
-// number counts. A unit binds to the number before it, and names of parameters come before units.
+// Values of expressions, for drawing before the kernel has answered. Checking dimensions is left to the kernel; only the number
+// matters here. A unit binds to the number before it, and names of parameters take precedence over units.
 import { UNITS } from "./units";
 
 export type Scope = (name: string) => number | undefined;
@@ -34,7 +34,7 @@ const FUNCTIONS: Readonly<Record<string, (...values: number[]) => number>> = {
   if: (condition = 0, then = 0, otherwise = 0) => (condition !== 0 ? then : otherwise),
 };
 
-/** The value in SI units; null where the text is no expression, names something unknown or has no finite value. */
+/** The value in SI units; null if the text is not an expression, contains an unknown name or has no finite value. */
 export function evaluate(text: string, scope: Scope = NO_NAMES): number | null {
   const value = new Evaluator(text, scope).all();
   return value !== null && Number.isFinite(value) ? value : null;
@@ -153,7 +153,7 @@ class Evaluator {
     return unit && this.tokens[at + 1] !== "(" ? unit.factor : null;
   }
 
-  // symbol (('*' | '/') symbol)* with whole exponents, as far as units go.
+  // symbol (('*' | '/') symbol)* with integer exponents, as far as the symbols are units.
   private unit(): number {
     const first = this.unitHere(this.at);
     if (first === null) return 1;

@@ -1,7 +1,7 @@
-// Points, poses and a few facts of plane geometry. Lengths in metres, angles in radians, counter-clockwise.
+// Points, poses and some plane geometry. Lengths in metres, angles in radians, counter-clockwise.
 export type Point = readonly [number, number];
 
-/** Where a body's axes stand in the world. */
+/** Pose of a body's axes in the world. */
 export interface Pose {
   x: number;
   y: number;
@@ -69,7 +69,7 @@ function turn(a: Point, b: Point, c: Point): number {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/** The outline of all that is within `radius` of the hull of the points, as a polygon. */
+/** The outline of everything within `radius` of the hull of the points, as a polygon. */
 export function roundedOutline(points: readonly Point[], radius: number, perTurn = 32): Point[] {
   const corners = hull(points);
   if (corners.length === 0) return [];
@@ -98,7 +98,7 @@ export interface AreaMoments {
   polar: number;
 }
 
-/** Of a simple polygon, counter-clockwise. */
+/** For a simple polygon, counter-clockwise. */
 export function areaMoments(polygon: readonly Point[]): AreaMoments {
   let area = 0;
   let sx = 0;

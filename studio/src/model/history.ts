@@ -1,12 +1,12 @@
-// Undo without limit: each step keeps only what it changed, so that a thousand edits of a large model take little memory.
+// Unlimited undo: each step stores only what it changed, so that a thousand edits of a large model take little memory.
 
 interface Change {
   at: number;
   removed: string;
   inserted: string;
-  /** What the step was, for the menu: "Add link". */
+  /** Description of the step for the menu: "Add link". */
   label: string;
-  /** Steps with the same key in a row are one: typing, dragging. */
+  /** Consecutive steps with the same key are merged: typing, dragging. */
   key: string;
 }
 
@@ -14,7 +14,7 @@ export interface History {
   readonly text: string;
   readonly past: readonly Change[];
   readonly future: readonly Change[];
-  /** The last step has been undone and redone: what comes now is a step of its own. */
+  /** The last step has been undone and redone: the next change is a new step. */
   readonly closed?: boolean;
 }
 
@@ -31,7 +31,7 @@ function difference(before: string, after: string, label: string, key: string): 
   return { at: start, removed: before.slice(start, before.length - end), inserted: after.slice(start, after.length - end), label, key };
 }
 
-/** A step. With a key that the last step has too, both become one. */
+/** Adds a step. If the last step has the same key, both are merged. */
 export function change(history: History, text: string, label: string, key = ""): History {
   if (text === history.text) return history;
   const last = history.past[history.past.length - 1];

@@ -1,4 +1,4 @@
-// What a text says as a mechanism: bodies, markers, joints and loads with their numbers. A view, made anew from every
+// The mechanism described by a text: bodies, markers, joints and loads with their numbers. A view, rebuilt from every
 // text; operations change the text.
 import { type Scope, evaluate, namesIn } from "./expression";
 import { type Point, type Pose, ORIGIN, toWorld } from "./geometry";
@@ -10,7 +10,7 @@ export interface Marker {
   name: string;
   at: Point;
   axis: number;
-  /** Its path is to be drawn. */
+  /** Its path is drawn. */
   traced: boolean;
 }
 
@@ -18,14 +18,14 @@ export interface Body {
   name: string;
   mass: number;
   inertia: number;
-  /** Absent entries are found by assembly. */
+  /** Absent entries are determined by assembly. */
   pose: Pose;
   stated: boolean;
   markers: Marker[];
   shape: Shape | null;
   massFromShape: boolean;
   inertiaFromShape: boolean;
-  /** Position or angle is written with names of parameters. */
+  /** The position or angle contains names of parameters. */
   parametric: boolean;
 }
 
@@ -40,20 +40,20 @@ export interface Joint {
   first: End;
   second: End;
   law: string;
-  /** Numbers of the joint's own: radii, radius, length. */
+  /** Numbers of the joint itself: radii, radius, length. */
   radii: [number, number] | null;
   radius: number | null;
-  /** Radii of a belt's discs, positive where it is on their left; 0 where it ends in the marker. */
+  /** Radii of a belt's discs, positive if the belt is on the left of the disc; 0 if it ends at the marker. */
   discs: [number, number];
   internal: boolean;
-  /** Between the ends of a cylinder with its rod in; null for other types. */
+  /** Length of a cylinder's barrel; null for other types. */
   barrel: number | null;
   /** The blades of a flexure; none for other laws. */
   blades: Blade[];
   profile: Profile | null;
 }
 
-/** A blade in the axes of its two markers: where its ends are along its own direction, and that direction against the markers'. */
+/** A blade in the axes of its two markers: the positions of its ends along its own direction, and that direction relative to the markers' axes. */
 export interface Blade {
   length: number;
   angle: number;
@@ -61,10 +61,10 @@ export interface Blade {
   to: number;
 }
 
-/** The outline of a cam or a curved edge in the axes of the first marker, and what runs on it. */
+/** The outline of a cam or a curved edge in the axes of the first marker, and its follower. */
 export interface Profile {
   outline: Point[];
-  /** Of a roller; null: a flat face. */
+  /** Radius of the roller; null: a flat face. */
   roller: number | null;
 }
 
@@ -154,7 +154,7 @@ function textOf(node: Node | undefined): string | null {
   return node?.kind === "text" ? node.value : null;
 }
 
-// TOML has inf and nan, and an expression can divide by zero while it is typed: neither has a place in a drawing.
+// TOML has inf and nan, and an expression can divide by zero while it is being typed: neither can be drawn.
 function numberOf(node: Node | undefined, scope: Scope): number | null {
   if (node?.kind === "number") return Number.isFinite(node.value) ? node.value : null;
   return node?.kind === "text" ? evaluate(node.value, scope) : null;
@@ -254,12 +254,12 @@ function readJoint(name: string, table: TableNode, number: Reading, parameters: 
   };
 }
 
-// The piston stays inside at either end of the stroke, as far as one stage can.
+// The piston stays inside the barrel at both ends of the stroke, as far as a single stage allows.
 function barrelLength(closedLength: number, stroke: number): number {
   return Math.min(Math.max((closedLength + stroke) / 2, 0.93 * closedLength), closedLength);
 }
 
-// Of a belt: positive where it is on the left of the disc.
+// Radii for a belt: positive if the belt is on the left of the disc.
 function readDiscs(table: TableNode, number: Reading): [number, number] {
   const [first, second] = ["first", "second"].map((end) => ({ radius: number(table.entries.get(`${end}_radius`)) ?? 0, side: textOf(table.entries.get(`${end}_side`)) }));
   const signed = (radius: number, side: string | null | undefined) => (side === "right" ? -radius : radius);
@@ -281,7 +281,7 @@ function readProfile(table: TableNode, number: Reading, parameters: Map<string, 
   return type === "cam" ? readCam(table, number, parameters) : type === "edge" ? readEdge(table, number, parameters) : null;
 }
 
-// A band below the edge; the height of a table is not known here and counts as 0.
+// A band below the edge; the height from a table is not known here and counts as 0.
 function readEdge(table: TableNode, number: Reading, parameters: Map<string, number>): Profile {
   const [from, to] = [number(table.entries.get("from")) ?? 0, number(table.entries.get("to")) ?? 0];
   const thick = 0.02 * (to - from);
@@ -292,7 +292,7 @@ function readEdge(table: TableNode, number: Reading, parameters: Map<string, num
   return { outline: [...edge, ...edge.map(([x, y]): Point => [x, y - thick]).reverse()], roller: number(table.entries.get("roller_radius")) ?? 0 };
 }
 
-// As the kernel has it (docs/theory/cams.md); the lift of a table is not known here and counts as 0.
+// As in the kernel (docs/theory/cams.md); the lift from a table is not known here and counts as 0.
 function readCam(table: TableNode, number: Reading, parameters: Map<string, number>): Profile {
   const flat = textOf(table.entries.get("follower")) === "flat";
   const roller = flat ? 0 : (number(table.entries.get("roller_radius")) ?? 0);
@@ -340,7 +340,7 @@ function readMotor(name: string, table: TableNode): Motor {
   return { name, joint: textOf(table.entries.get("joint")) ?? "", kind };
 }
 
-/** Start poses by body; what assembly found goes before what the text states. */
+/** Start poses by body; assembled poses take precedence over those stated in the text. */
 export type Poses = ReadonlyMap<string, Pose>;
 
 export function poseOf(model: Model, name: string, poses?: Poses): Pose {
@@ -357,7 +357,7 @@ export function worldPoint(model: Model, end: End, poses?: Poses): Point {
   return toWorld(poseOf(model, end.body, poses), markerOf(model, end)?.at ?? [0, 0]);
 }
 
-/** Of an outer gear: by its shape, or by what it is in mesh with. */
+/** Radius of an outer gear: from its shape, or from its mesh. */
 export function gearRadius(model: Model, { name, shape, markers }: Body): number | null {
   if (markers.length === 0) return null;
   if (shape) return shape.kind === "disc" ? shape.width / 2 : null;
@@ -368,7 +368,7 @@ export function gearRadius(model: Model, { name, shape, markers }: Body): number
   return null;
 }
 
-/** Length of the mechanism: what sizes of symbols and grids are chosen from. */
+/** Extent of the mechanism, from which the sizes of symbols and grids are chosen. */
 export function extent(model: Model, poses?: Poses): { min: Point; max: Point; size: number } {
   const points: Point[] = model.ground.map((marker) => marker.at);
   for (const body of model.bodies) {

@@ -1,4 +1,4 @@
-// Names for new things: letters for points as in a textbook, counted words for the rest.
+// Names for new things: letters for points as in a textbook, numbered words for the rest.
 import type { Model } from "./model";
 
 export type Kind = "body" | "joint" | "spring" | "torsion_spring" | "force" | "motor";
@@ -25,7 +25,7 @@ export function countedName(word: string, taken: ReadonlySet<string>): string {
   for (let i = 1; ; i++) if (!taken.has(`${word}${i}`)) return `${word}${i}`;
 }
 
-/** The word itself, or the word with a number. */
+/** The word itself if it is free, else the word with a number. */
 export function freshName(word: string, taken: ReadonlySet<string>): string {
   if (!taken.has(word)) return word;
   for (let i = 2; ; i++) if (!taken.has(`${word}_${i}`)) return `${word}_${i}`;
@@ -41,7 +41,7 @@ export function nextLetter(taken: ReadonlySet<string>): string {
   }
 }
 
-/** Names of all markers and joints, so that a letter stands for one point of the drawing only. */
+/** Names of all markers and joints, so that a letter stands for only one point of the drawing. */
 export function lettersOf(model: Model): Set<string> {
   const letters = new Set(model.joints.map((joint) => joint.name));
   for (const marker of model.ground) letters.add(marker.name);

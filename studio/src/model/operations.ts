@@ -1,4 +1,4 @@
-// What the tools draw, as edits of the text. Each operation is one step of undo; it returns the new text and what it made.
+// What the tools draw, as edits of the text. Each operation is one undo step; it returns the new text and the things it created.
 import { Draft, type Literal, unfolded } from "./edit";
 import { type Point, type Pose, direction, distance, middle, toBody } from "./geometry";
 import { type Body, type End, GROUND, type Model, type Poses, gearRadius, markerOf, poseOf, readModel, worldPoint } from "./model";
@@ -9,7 +9,7 @@ import { TRACE } from "./remarks";
 import { FROM_SHAPE, type Shape, likelyBar, massProperties, niceSize, writeInertia, writeMass, writeShape } from "./shape";
 import { writeAngle, writeLength, writeLengths } from "./units";
 
-/** What a click met: a point of the world; a marker there, or a body without one, or neither. */
+/** What a click hit: a point of the world; a marker there, or a body without a marker, or neither. */
 export interface Target {
   at: Point;
   end: End | null;
@@ -26,7 +26,7 @@ export interface Made {
   made: Thing[];
 }
 
-/** Collects a drawing step: the draft, and the names that it has given already. */
+/** Collects a drawing step: the draft, and the names it has already used. */
 class Step {
   readonly draft: Draft;
   readonly made: Thing[] = [];
@@ -56,7 +56,7 @@ class Step {
     return name;
   }
 
-  /** The marker at a target, made if there is none. Bodies that this step made are not in the model: they have theirs. */
+  /** The marker at a target, created if there is none. Bodies created by this step are not in the model: they have their own markers. */
   end(target: Target, letter?: string): End {
     if (target.end) return target.end;
     const marker = letter ?? this.letter();
@@ -95,7 +95,7 @@ class Step {
   }
 }
 
-/** A bar from point to point; where an end meets something, a pin joins them. */
+/** A bar from point to point; if an end meets something, a pin joins them. */
 export function addBar(model: Model, from: Target, to: Target, poses?: Poses, shape?: Shape): Made {
   const step = new Step(model, poses);
   const length = distance(from.at, to.at);
@@ -116,7 +116,7 @@ export function addBar(model: Model, from: Target, to: Target, poses?: Poses, sh
   return { text: step.draft.apply(), made: [{ kind: "body", name: body }] };
 }
 
-// A point keeps its letter through all bodies that meet there.
+// A point keeps its letter in all bodies that meet there.
 function free(letter: string, step: Step): string {
   return /^[A-Za-z]\w*$/.test(letter) ? letter : step.letter();
 }
@@ -142,7 +142,7 @@ export function addPlate(model: Model, targets: readonly Target[], poses?: Poses
   return { text: step.draft.apply(), made: [{ kind: "body", name: body }] };
 }
 
-/** Joins the two bodies at a point, or a body to the ground, by a pin or a weld. */
+/** Joins the two bodies at a point, or a body and the ground, by a pin or a weld. */
 export function addPin(model: Model, first: Target, second: Target, type: "revolute" | "fixed", poses?: Poses): Made {
   const step = new Step(model, poses);
   const letter = (first.end ?? second.end)?.marker ?? step.letter();
@@ -152,7 +152,7 @@ export function addPin(model: Model, first: Target, second: Target, type: "revol
   return step.done();
 }
 
-/** Pins a point of a body to the ground where it is. */
+/** Pins a point of a body to the ground at its present position. */
 export function addGroundPin(model: Model, target: Target, type: "revolute" | "fixed", poses?: Poses): Made {
   const step = new Step(model, poses);
   const letter = target.end?.marker ?? step.letter();
@@ -164,7 +164,7 @@ export function addGroundPin(model: Model, target: Target, type: "revolute" | "f
   return step.done();
 }
 
-/** A block that slides along an axis through the point, on the ground or on a body; pinned to what the point belongs to. */
+/** A block that slides along an axis through the point, on the ground or on a body; pinned to the body of the point. */
 export function addSlider(model: Model, target: Target, axis: number, on: string, size: number, poses?: Poses): Made {
   const step = new Step(model, poses);
   const width = niceSize(size / 8);
@@ -188,7 +188,7 @@ function addGuide(step: Step, model: Model, at: Point, axis: number, on: string,
   return { body: carrier ? on : GROUND, marker };
 }
 
-/** The point runs in a straight slot of the ground or of a body. */
+/** The point moves in a straight slot of the ground or of a body. */
 export function addSlot(model: Model, pin: Target, axis: number, on: string, poses?: Poses): Made {
   const step = new Step(model, poses);
   const guide = addGuide(step, model, pin.at, axis, on, poses);
@@ -196,7 +196,7 @@ export function addSlot(model: Model, pin: Target, axis: number, on: string, pos
   return step.done();
 }
 
-/** A disc on a pin at its centre; the disc is a gear once it meshes. */
+/** A disc on a pin at its centre; it becomes a gear when it meshes. */
 export function addDisc(model: Model, centre: Target, radius: number, mesh: string | null, poses?: Poses): Made {
   const step = new Step(model, poses);
   const shape: Shape = { kind: "disc", width: 2 * radius, height: 2 * radius, thickness: niceSize(radius / 4), material: "steel" };
@@ -214,7 +214,7 @@ export function addDisc(model: Model, centre: Target, radius: number, mesh: stri
   return step.done();
 }
 
-/** Two gears that are there already come into mesh; their radii share the distance in the ratio of their sizes. */
+/** Brings two existing gears into mesh; their radii add up to the distance, in the ratio of their sizes. */
 export function addMesh(model: Model, first: Body, second: Body, poses?: Poses): Made {
   const [a, b] = [first, second].map((body): End => ({ body: body.name, marker: body.markers[0]?.name ?? "" })) as [End, End];
   const step = new Step(model, poses);
@@ -255,7 +255,7 @@ export function addConnector(model: Model, kind: Connector, from: Target, to: Ta
   const mass = Math.max(0.1, ...[a, b].map((end) => model.body.get(end.body)?.mass ?? 0));
   const path = ["spring", name];
   step.draft.set([...path, "between"], [`${a.body}.${a.marker}`, `${b.body}.${b.marker}`]);
-  // Oscillates at about two hertz with the heavier body, damped to a tenth.
+  // Oscillates at about two hertz with the heavier body, with a damping ratio of about a tenth.
   if (kind === "spring") step.draft.set([...path, "stiffness"], `${niceSize(mass * 150)} N/m`);
   step.draft.set([...path, "damping"], `${niceSize(mass * (kind === "spring" ? 2.5 : 25))} N*s/m`);
   return { text: step.draft.apply(), made: [{ kind: "spring", name }] };
@@ -274,7 +274,7 @@ export function addTorsionSpring(model: Model, joint: string): Made {
   return { text: step.draft.apply(), made: [{ kind: "torsion_spring", name }] };
 }
 
-/** A motor in the angle or the slide that a joint leaves free, at an even speed. */
+/** A motor for the angle or slide that a joint leaves free, at constant speed. */
 export function addMotor(model: Model, joint: string): Made {
   const step = new Step(model);
   const found = model.joints.find((one) => one.name === joint);
@@ -288,7 +288,7 @@ export function addMotor(model: Model, joint: string): Made {
   return { text: step.draft.apply(), made: [{ kind: "motor", name }] };
 }
 
-/** A force at a point of a body, with world axes; or a torque. */
+/** A force at a point of a body, along world axes; or a torque. */
 export function addForce(model: Model, target: Target, force: Point | null, torque = 0, poses?: Poses): Made {
   const step = new Step(model, poses);
   const on = step.end(target);
@@ -299,7 +299,7 @@ export function addForce(model: Model, target: Target, force: Point | null, torq
   return { text: step.draft.apply(), made: [{ kind: "force", name }] };
 }
 
-/** Marks or unmarks a point whose path is drawn; a point of a body without a marker gets one. */
+/** Turns the trace of a point on or off; a point of a body without a marker gets one. */
 export function toggleTrace(model: Model, target: Target, poses?: Poses): Made {
   const { end } = target;
   if (!end && target.body) {
@@ -315,7 +315,7 @@ export function toggleTrace(model: Model, target: Target, poses?: Poses): Made {
   return { text: draft.apply(), made: [] };
 }
 
-/** A new model: what the file needs and a duration, so that it runs as soon as something is drawn. */
+/** A new model: what the file requires and a duration, so that it runs as soon as something is drawn. */
 export const EMPTY_MODEL = `format = 1
 name = "Untitled"
 

@@ -1,4 +1,4 @@
-// Places as they are written into a model: what has not moved stays as its author wrote it.
+// Positions as written into a model: what has not moved stays as its author wrote it.
 import type { Draft, Literal } from "./edit";
 import { type Point, type Pose, distance } from "./geometry";
 import type { Body, Model, Poses } from "./model";
@@ -7,10 +7,10 @@ import { namesIn } from "./expression";
 import { type Node, nodeAt, parseToml, plain } from "./toml";
 import { writeAngle, writeLengths } from "./units";
 
-/** Less than this part of a body's size, or of a radian, is no movement. */
+/** A change below this fraction of a body's size, or of a radian, is no movement. */
 const NOTHING = 1e-9;
 
-/** A marker as it is written: with its axis only where it has one. */
+/** A marker as written: its axis is included only if it has one. */
 export function markerLiteral(at: Point, axis: number): Literal[] {
   const xy = writeLengths(at);
   return axis ? [...xy, writeAngle(axis)] : xy;
@@ -22,7 +22,7 @@ export interface Placed {
   traced: boolean;
 }
 
-/** Writes a marker at `path`; `before` is where it was, null for a new one. */
+/** Writes a marker at `path`; `before` is its previous position, null for a new one. */
 export function writeMarker(draft: Draft, path: readonly string[], now: Placed, before: Placed | null): void {
   const node = nodeAt(draft.document.root, path);
   const size = Math.max(...now.at.map(Math.abs), ...(before?.at ?? []).map(Math.abs));
@@ -41,7 +41,7 @@ export function writeMarker(draft: Draft, path: readonly string[], now: Placed, 
   draft.set(path, literal, now.traced ? TRACE : "");
 }
 
-/** Writes where a body stands; `before` is where it stood, null if that is not known. */
+/** Writes the pose of a body; `before` is its previous pose, null if that is unknown. */
 export function writePose(draft: Draft, name: string, now: Pose, before: Pose | null = null, size = 0): void {
   if (!before || distance([now.x, now.y], [before.x, before.y]) > NOTHING * size) {
     const path = ["body", name, "position"];
@@ -54,12 +54,12 @@ export function writePose(draft: Draft, name: string, now: Pose, before: Pose | 
   if (!before || Math.abs(now.angle - before.angle) > NOTHING) draft.set(["body", name, "angle"], writeAngle(now.angle));
 }
 
-/** How large a body is, and how far out. */
+/** The larger of a body's size and its distance from the origin. */
 export function sizeOf(body: Body, pose: Pose): number {
   return Math.max(Math.hypot(pose.x, pose.y), ...body.markers.map((marker) => Math.hypot(...marker.at)), 1e-12);
 }
 
-/** Writes the poses of all bodies that stand elsewhere than the text says, as after a drag of the mechanism. */
+/** Writes the poses of all bodies that differ from the text, for example after dragging the mechanism. */
 export function writePoses(draft: Draft, model: Model, poses: Poses): void {
   for (const body of model.bodies) {
     const pose = poses.get(body.name);
@@ -67,7 +67,7 @@ export function writePoses(draft: Draft, model: Model, poses: Poses): void {
   }
 }
 
-/** Values of a model with names of its parameters in them that `text` has no more: "body.lever.markers.A". */
+/** Values of a model that contain names of its parameters and that `text` no longer has: "body.lever.markers.A". */
 export function overwritten(model: Model, text: string): string[] {
   const known = new Set(model.parameters.keys());
   if (known.size === 0) return [];

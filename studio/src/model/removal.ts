@@ -9,7 +9,7 @@ import { FROM_SHAPE, type Shape, niceSize, writeShape } from "./shape";
 import { nodeAt, parseToml, plain, writeKey } from "./toml";
 import { writeAngle, writeLengths } from "./units";
 
-/** Removes things, with all that cannot be without them. */
+/** Removes things, together with everything that cannot exist without them. */
 export function removeThings(model: Model, things: readonly Thing[]): string {
   const gone = closure(model, things);
   const draft = new Draft(model.document);
@@ -23,7 +23,7 @@ export function removeThings(model: Model, things: readonly Thing[]): string {
   return draft.apply();
 }
 
-// Whatever refers to something that goes, goes too.
+// Whatever refers to something removed is removed too.
 function closure(model: Model, things: readonly Thing[]): Thing[] {
   const gone: Thing[] = [];
   const add = (kind: Thing["kind"], name: string) => {
@@ -47,7 +47,7 @@ function users(model: Model, kind: "body" | "marker", name: string): [Kind, stri
   ];
 }
 
-// Ground markers that only the removed joints used.
+// Ground markers used only by the removed joints.
 function idleGroundMarkers(model: Model, gone: readonly Thing[]): string[] {
   const isGone = (kind: string, name: string) => gone.some((one) => one.kind === kind && one.name === name);
   const used = (end: End, kept: boolean, set: Set<string>) => {
@@ -66,7 +66,7 @@ function idleGroundMarkers(model: Model, gone: readonly Thing[]): string[] {
   return [...before].filter((marker) => !after.has(marker) && !isGone("marker", `${GROUND}.${marker}`));
 }
 
-/** Gives a thing another name, and tells all who refer to it. */
+/** Renames a thing, and updates all references to it. */
 export function renameThing(model: Model, kind: Kind, from: string, to: string): string {
   const draft = new Draft(model.document);
   draft.rename([kind, from], to);
@@ -88,7 +88,7 @@ function renameEnds(draft: Draft, model: Model, change: (end: End) => End): void
   }
 }
 
-/** The selected bodies with what is among them, as a text that can be pasted here or elsewhere. */
+/** The selected bodies and everything between them, as a text that can be pasted here or elsewhere. */
 export function copyThings(model: Model, things: readonly Thing[], poses?: Poses): string {
   const bodies = new Set(things.filter((one) => one.kind === "body").map((one) => one.name));
   const inside = (end: End) => end.body === GROUND || bodies.has(end.body);
@@ -132,13 +132,13 @@ export function copyThings(model: Model, things: readonly Thing[], poses?: Poses
 
 const behind = (remark: string): string => (remark ? `  # ${remark}` : "");
 
-// A gear without a shape is as large as its mesh says, which may not be copied with it.
+// A gear without a shape gets its size from its mesh, which may not be copied with it.
 function gearShape(model: Model, body: Body): Shape | null {
   const radius = gearRadius(model, body);
   return radius === null ? null : { kind: "disc", width: 2 * radius, height: 2 * radius, thickness: niceSize(radius / 4), material: "steel" };
 }
 
-/** Adds what was copied, moved by `step`, under names that are free. */
+/** Adds what was copied, shifted by `step`, under unused names. */
 export function pasteThings(model: Model, copied: string, step: Point): Made {
   const source = parseToml(copied);
   const draft = new Draft(model.document);
@@ -211,7 +211,7 @@ function readLengths(copied: string): Map<string, Point> {
   return places;
 }
 
-// What writeLengths wrote: "12.5 mm", "3 m" or 0.
+// Reads what writeLengths wrote: "12.5 mm", "3 m" or 0.
 function metres(node: { kind: string; value?: unknown }): number {
   if (typeof node.value === "number") return node.value;
   const text = String(node.value ?? "0");

@@ -1,4 +1,4 @@
-// Moving points: every body at a point takes it along, and a drawn body keeps its axes in its centre of mass.
+// Moving points: every body at a point moves with it, and a drawn body keeps its axes at its centre of mass.
 import { Draft } from "./edit";
 import { type Point, type Pose, direction, distance, middle, toBody, toWorld } from "./geometry";
 import { type Body, type End, GROUND, type Marker, type Model, type Poses, markerOf, poseOf, worldPoint } from "./model";
@@ -26,7 +26,7 @@ export function same(a: End, b: End): boolean {
   return a.body === b.body && a.marker === b.marker;
 }
 
-/** What a body is, once its markers are where they should be in the world. */
+/** The data of a body whose markers are at given positions in the world. */
 export interface Fit {
   pose: Pose;
   markers: { name: string; at: Point; axis: number; traced: boolean }[];
@@ -34,7 +34,7 @@ export interface Fit {
   inertia: number;
 }
 
-/** Axes in the centroid of the shape, x along the first two markers. Bodies without a bar's shape keep their axes. */
+/** Axes at the centroid of the shape, x along the first two markers. Bodies without a bar's shape keep their axes. */
 export function fit(body: Body, pose: Pose, world: readonly Point[]): Fit {
   const bar = body.shape?.kind === "bar" || (body.shape === null && isBar(body));
   const angle = bar && world.length > 1 && distance(world[0]!, world[1]!) > 0 ? direction(world[0]!, world[1]!) : pose.angle;
@@ -58,7 +58,7 @@ export function fit(body: Body, pose: Pose, world: readonly Point[]): Fit {
   return { pose: axes, markers, mass, inertia };
 }
 
-// Two markers either side of the centre of mass: a bar, whether or not its shape is known.
+// Two markers on either side of the centre of mass: a bar, whether or not its shape is known.
 function isBar(body: Body): boolean {
   const [a, b] = body.markers;
   if (body.markers.length !== 2 || !a || !b) return false;
@@ -66,10 +66,10 @@ function isBar(body: Body): boolean {
   return size > 0 && Math.hypot(a.at[0] + b.at[0], a.at[1] + b.at[1]) < 1e-6 * size;
 }
 
-/** The start that assembly has corrected by more than this part of the body's size is written, so that it begins near again. */
+/** If assembly has corrected a start pose by more than this fraction of the body's size, the pose is written, so that assembly starts close again. */
 const GUESSED = 0.01;
 
-// `pose` is where the body stood, as assembled. What the fit has left as it was is not written.
+// `pose` is the body's assembled pose before the change. What the fit has not changed is not written.
 function writeFit(draft: Draft, body: Body, pose: Pose, fitted: Fit): void {
   const size = sizeOf(body, pose);
   const far = distance([pose.x, pose.y], [body.pose.x, body.pose.y]) > GUESSED * size || Math.abs(pose.angle - body.pose.angle) > GUESSED;
@@ -80,7 +80,7 @@ function writeFit(draft: Draft, body: Body, pose: Pose, fitted: Fit): void {
   fitted.markers.forEach((marker, i) => writeMarker(draft, ["body", body.name, "markers", marker.name], marker, body.markers[i] ?? null));
 }
 
-/** Moves the point at `end`, with every body and the ground that are joined there. */
+/** Moves the point at `end`, together with every body, and the ground, joined there. */
 export function movePoint(model: Model, end: End, to: Point, poses?: Poses): string {
   const draft = new Draft(model.document);
   const group = markersAt(model, end);
@@ -111,7 +111,7 @@ export function barLength(body: Body): number | null {
   return a && b ? distance(a.at, b.at) : null;
 }
 
-/** Gives a body's first two markers another distance; what hangs on the second closes by assembly. */
+/** Gives a body's first two markers another distance; assembly closes what is attached to the second one. */
 export function setBarLength(model: Model, name: string, length: number, poses?: Poses): string {
   const body = model.body.get(name);
   const [a, b] = body?.markers ?? [];
@@ -126,7 +126,7 @@ export function setBarLength(model: Model, name: string, length: number, poses?:
   return draft.apply();
 }
 
-/** Turns a body about its first marker to this angle of its first two markers. */
+/** Rotates a body about its first marker, so that its first two markers have this angle. */
 export function setBarAngle(model: Model, name: string, angle: number, poses?: Poses): string {
   const body = model.body.get(name);
   const [a, b] = body?.markers ?? [];
@@ -143,7 +143,7 @@ export function setBarAngle(model: Model, name: string, angle: number, poses?: P
   return draft.apply();
 }
 
-/** Writes mass, inertia and axes of a body anew from its shape; marks what follows from it. */
+/** Recomputes mass, inertia and axes of a body from its shape, and marks the values derived from it. */
 export function applyShape(draft: Draft, body: Body, pose: Pose): void {
   const shaped = { ...body, massFromShape: true, inertiaFromShape: true };
   if (!body.shape) return;
@@ -155,7 +155,7 @@ export function applyShape(draft: Draft, body: Body, pose: Pose): void {
   draft.set(["body", body.name, "inertia"], writeInertia(properties.inertia), FROM_SHAPE);
 }
 
-/** Adds a marker at a point of the world to a body, which keeps its shape's mass in order. Returns its literal place. */
+/** Adds a marker at a point of the world to a body, and updates the mass of the body's shape. Returns the marker's literal position. */
 export function addMarker(draft: Draft, model: Model, body: Body, name: string, at: Point, poses?: Poses): void {
   const pose = poseOf(model, body.name, poses);
   const marker: Marker = { name, at: toBody(pose, at), axis: 0, traced: false };
@@ -167,7 +167,7 @@ export function addMarker(draft: Draft, model: Model, body: Body, name: string, 
   }
 }
 
-/** The text with the poses of a mechanism that has been dragged. */
+/** The text with the poses of the dragged mechanism. */
 export function keepPoses(model: Model, poses: Poses): string {
   const draft = new Draft(model.document);
   writePoses(draft, model, poses);

@@ -1,13 +1,13 @@
-// Mass and inertia from shape and material. The format knows only mass and inertia; the shape stands in a comment behind
-// the body's header, and values that follow from it say so in theirs.
+// Mass and inertia from shape and material. The format knows only mass and inertia; the shape is in a comment after
+// the body's header, and values derived from it are marked by comments.
 import { type Point, areaMoments, roundedOutline } from "./geometry";
 import { shortNumber } from "./units";
 
 export interface Shape {
   kind: "bar" | "block" | "disc";
-  /** Of a bar: across it. Of a block: along x. Of a disc: its diameter [m]. */
+  /** Bar: width across it. Block: size along x. Disc: diameter [m]. */
   width: number;
-  /** Of a block: along y [m]. */
+  /** Block: size along y [m]. */
   height: number;
   thickness: number;
   material: string;
@@ -70,7 +70,7 @@ export function readShape(remark: string): Shape | null {
   };
 }
 
-/** Four digits suffice for a mass, and read well. */
+/** Four digits are enough for a mass, and easy to read. */
 export function writeMass(kilograms: number): string {
   return `${shortNumber(kilograms, 5)} kg`;
 }
@@ -79,13 +79,13 @@ export function writeInertia(value: number): string {
   return `${shortNumber(value, 5)} kg*m^2`;
 }
 
-/** What a bar of this length is drawn with: about a twelfth of its length wide. */
+/** The default shape of a bar of this length: its width is about a twelfth of its length. */
 export function likelyBar(length: number): Shape {
   const width = Math.max(niceSize(length / 12), 1e-3);
   return { kind: "bar", width, height: width, thickness: Math.max(niceSize(width / 2), 1e-3), material: "steel" };
 }
 
-/** 1, 2 or 5 times a power of ten, not above `size` by more than a third. */
+/** 1, 2 or 5 times a power of ten, exceeding `size` by at most a third. */
 export function niceSize(size: number): number {
   const power = 10 ** Math.floor(Math.log10(Math.max(size, 1e-9)));
   const digit = size / power;

@@ -1,6 +1,6 @@
-// Strokes of keys that are one step of undo: those that go on where the last one was, without a pause.
+// Keystrokes that form one undo step: those that continue where the last one was, without a pause.
 
-/** Longer than between two strokes, shorter than a thought [ms]. */
+/** Longer than between two keystrokes, shorter than a pause for thought [ms]. */
 const PAUSE = 1000;
 
 export class Strokes {
@@ -9,21 +9,21 @@ export class Strokes {
 
   constructor(private readonly word: string) {}
 
-  /** The key of the step that a stroke belongs to. */
+  /** The key of the step to which a stroke belongs. */
   key(now: number, goesOn: boolean): string {
     if (!goesOn || now - this.last > PAUSE) this.count++;
     this.last = now;
     return `${this.word}${this.count}`;
   }
 
-  /** The next stroke is another step. */
+  /** The next stroke starts a new step. */
   end(): void {
     this.last = Number.NEGATIVE_INFINITY;
   }
 }
 
 interface TextChange {
-  /** What was replaced, by places in the text before. */
+  /** The range that was replaced, in the previous text. */
   from: number;
   to: number;
   inserted: string;

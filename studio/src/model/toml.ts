@@ -1,5 +1,5 @@
-// TOML with the place of everything: what a text says, and where it says it, so that an edit can change one value and
-// leave the rest, comments too, as its author wrote it. It reads on behind a fault and returns what it understood.
+// TOML with positions: what a text says, and where it says it, so that an edit can change one value and leave the
+// rest, including comments, as its author wrote it. It continues reading after a fault and returns what it understood.
 
 export interface Span {
   from: number;
@@ -11,7 +11,7 @@ export interface TextFault extends Span {
 }
 
 interface Place extends Span {
-  /** The whole statement `key = value`, where there is one. */
+  /** The whole statement `key = value`, if there is one. */
   statement?: Span;
 }
 
@@ -34,11 +34,11 @@ export interface ListNode extends Place {
 export interface TableNode extends Place {
   kind: "table";
   entries: Map<string, Node>;
-  /** How the table came to be: `[header]`, `a.b = 1`, `{ }`, or as the parent of one of these. */
+  /** How the table was defined: `[header]`, `a.b = 1`, `{ }`, or as the parent of one of these. */
   form: "header" | "dotted" | "inline" | "implied";
-  /** Where a further line of this table goes; of headers, and of dotted tables the last line with this beginning. */
+  /** Where a new line of this table is inserted; for dotted tables, after the last line with this prefix. */
   insertAt: number;
-  /** What stands before the keys of a line of this table: "markers." of a dotted one. */
+  /** The prefix of keys in lines of this table: "markers." for a dotted one. */
   prefix: string;
 }
 export type Node = TextNode | NumberNode | TruthNode | ListNode | TableNode;
@@ -46,10 +46,10 @@ export type Node = TextNode | NumberNode | TruthNode | ListNode | TableNode;
 /** `[header]` with the statements under it. */
 export interface Section {
   path: string[];
-  /** Where the comment lines right above the header begin, or the header. */
+  /** Start of the comment lines right above the header, or of the header. */
   from: number;
   header: Span;
-  /** Behind the last statement's line. */
+  /** After the last statement's line. */
   to: number;
 }
 
@@ -95,7 +95,7 @@ class Reader {
   read(): Document {
     let here: TableNode | null = this.root;
     let section: Section | null = null;
-    let comments = -1; // where a block of comment lines right above began
+    let comments = -1; // start of a block of comment lines right above
     for (;;) {
       this.skipBlanks();
       if (this.at >= this.text.length) break;
@@ -156,7 +156,7 @@ class Reader {
     }
   }
 
-  // Only a comment may follow on the line; `at` comes to stand behind the line.
+  // Only a comment may follow on the line; moves `at` past the end of the line.
   private endOfStatement(): void {
     this.skipBlanks();
     const char = this.text[this.at];

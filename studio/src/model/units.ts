@@ -1,4 +1,4 @@
-// Units as people write them, and numbers as people read them. Inside everything is in SI and radians.
+// Units as people write them, and numbers as people read them. Internally everything is in SI and radians.
 
 /** Exponents of m, kg, s, rad. */
 export type Dimension = readonly [number, number, number, number];
@@ -84,7 +84,7 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   mph: { factor: (5280 * FOOT) / 3600, dimension: [1, 0, -1, 0] },
 };
 
-/** What people like to choose from in a field of this SI unit; the first is used for what the studio writes. */
+/** Units to choose from in a field with this SI unit; the studio writes values in the first one. */
 export const CHOICES: Readonly<Record<string, readonly string[]>> = {
   m: ["mm", "m", "cm", "in"],
   rad: ["deg", "rad"],
@@ -102,7 +102,7 @@ export const CHOICES: Readonly<Record<string, readonly string[]>> = {
   "m/s^2": ["m/s^2"],
 };
 
-/** The factor of "N*m/rad" and the like; null if a word in it is no unit. */
+/** The factor of "N*m/rad" and the like; null if a word in it is not a unit. */
 export function unitFactor(text: string): number | null {
   let factor = 1;
   for (const part of text.split(/(?=[*/])/)) {
@@ -115,7 +115,7 @@ export function unitFactor(text: string): number | null {
   return factor;
 }
 
-/** Few digits, no trailing zeros, thousands left alone: what a person would write. */
+/** Few digits, no trailing zeros, no scaling of thousands: what a person would write. */
 export function shortNumber(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : value < 0 ? "−∞" : "–";
   if (value === 0) return "0";
@@ -137,7 +137,7 @@ const PREFIXED: Readonly<Record<string, readonly [number, string][]>> = {
   kg: [[1, "kg"], [1e-3, "g"]],
 };
 
-/** "1.234 kN": a quantity with the prefix that fits its size. */
+/** "1.234 kN": a quantity with a suitable prefix. */
 export function quantity(value: number, unit: string, digits = 4): string {
   if (!Number.isFinite(value)) return shortNumber(value);
   const steps = PREFIXED[unit];
@@ -147,12 +147,12 @@ export function quantity(value: number, unit: string, digits = 4): string {
   return `${shortNumber(value / factor, digits)} ${name}`;
 }
 
-/** "N*m*s/rad" as it is printed: "N·m·s/rad". */
+/** "N*m*s/rad" in print: "N·m·s/rad". */
 export function prettyUnit(unit: string): string {
   return unit.replace(/\*/g, "·").replace("^2", "²").replace(/^-$/, "");
 }
 
-/** Lengths that belong together as the studio writes them into a model: to a billionth of the largest, in mm below ten metres. */
+/** Lengths that belong together, as the studio writes them into a model: to a billionth of the largest, in mm below ten metres. */
 export function writeLengths(metres: readonly number[], digits = 9): (string | number)[] {
   const size = Math.max(...metres.map(Math.abs));
   const grain = Math.max(10 ** (Math.floor(Math.log10(size)) + 1 - digits), 1e-14);

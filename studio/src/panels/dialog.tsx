@@ -1,4 +1,4 @@
-// A dialog: the browser's own, which keeps the focus inside and closes on Escape.
+// A dialog: the browser's own, which traps the focus and closes on Escape.
 import { type ReactNode, useEffect, useRef } from "react";
 import { studio } from "../state";
 import { Icon } from "./icons";

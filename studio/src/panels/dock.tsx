@@ -1,4 +1,4 @@
-// The panel below the drawing: what the run says.
+// The panel below the drawing: the results of the run.
 import { Suspense, lazy } from "react";
 import { type DockTab, studio, useStudio } from "../state";
 import { EnergyPanel } from "./results/energy";

@@ -1,4 +1,4 @@
-// What an empty drawing says: three ways to begin.
+// The hints in an empty drawing: three ways to begin.
 import { chooseTool } from "../actions";
 import { runCommand } from "../commands";
 import { otherDrafts } from "../files/autosave";

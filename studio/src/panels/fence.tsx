@@ -1,4 +1,4 @@
-// A fault in one panel leaves the others, and the model, alone.
+// A fault in one panel does not affect the others or the model.
 import { Component, type ReactNode } from "react";
 
 export class Fence extends Component<{ of: string; children: ReactNode }, { fault: string | null }> {

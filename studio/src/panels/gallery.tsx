@@ -1,4 +1,4 @@
-// The templates, each with a small picture of itself that moves while the pointer is over it.
+// The templates, each with a small picture that moves while the pointer is over it.
 import { useEffect, useRef, useState } from "react";
 import { openText } from "../actions";
 import { fitTo } from "../drawing/camera";

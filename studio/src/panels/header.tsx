@@ -1,4 +1,4 @@
-// The head of the page: the model's name, files, undo, the palette, help.
+// The page header: the model's name, files, undo, the palette, help.
 import { useEffect, useState } from "react";
 import { edit, redo, undo } from "../actions";
 import { runCommand } from "../commands";

@@ -1,4 +1,4 @@
-// The help sheet: the idea on half a page, and every key.
+// The help sheet: the concept in half a page, and all keys.
 import { COMMANDS, printChord } from "../commands";
 import { Dialog } from "./dialog";
 

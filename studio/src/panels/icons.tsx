@@ -1,4 +1,4 @@
-// The icons: drawn on a field of 24, with the stroke of the text.
+// The icons: drawn on a 24-unit grid, with the stroke width of the text.
 const PATHS: Record<string, string> = {
   select: "M6 3l12 9.5-5.4.8L15.5 20l-2.4 1-2.8-6.6L6 18z",
   link: "M5.2 16.6L16.6 5.2a2.6 2.6 0 0 1 3.7 3.7L8.9 20.3a2.6 2.6 0 0 1-3.7-3.7zM7 18.4h.01M18.4 7h.01",

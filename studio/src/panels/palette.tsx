@@ -1,4 +1,4 @@
-// Find a command by some of its letters; things of the model too.
+// Finds a command, or a thing of the model, by some of its letters.
 import { useState } from "react";
 import { select } from "../actions";
 import { COMMANDS, printChord } from "../commands";

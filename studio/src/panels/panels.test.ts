@@ -5,7 +5,7 @@ import { estimateOf } from "./results/estimate";
 import { chosenSeries, seriesOf } from "./results/series";
 
 const peak = (error_estimate: number, unique = true) => ({ peak: 100, error_estimate, relative_error_estimate: error_estimate / 100, unique }) as PeakForce;
-// What JSON makes of a NaN.
+// JSON turns a NaN into this.
 const nothing = null as unknown as number;
 
 describe("the estimated error of a peak", () => {

@@ -1,4 +1,4 @@
-// The name of a file that is saved for the first time, or once more under another name.
+// The name of a file that is saved for the first time, or again under another name.
 import { useState } from "react";
 import { saveUnder } from "../files/disk";
 import { studio, useStudio } from "../state";

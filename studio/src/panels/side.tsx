@@ -1,4 +1,4 @@
-// The panel beside the drawing: properties of what is selected, the model's settings, or its text.
+// The panel beside the drawing: properties of the selection, the model's settings, or its text.
 import { Suspense, lazy } from "react";
 import { type SideTab, studio, useStudio } from "../state";
 import { Fence } from "./fence";

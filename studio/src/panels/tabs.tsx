@@ -1,4 +1,4 @@
-// A row of tabs with arrow keys, as screen readers expect them; the active one closes its panel when it is chosen again.
+// A row of tabs with arrow keys, as screen readers expect; choosing the active tab again closes its panel.
 import { useRef } from "react";
 import { Icon } from "./icons";
 

@@ -1,4 +1,4 @@
-// The rail of drawing tools, grouped by what they make.
+// The toolbar of drawing tools, grouped by what they create.
 import { Fragment } from "react";
 import { chooseTool } from "../actions";
 import { TOOL_LIST, type Tool } from "../drawing/tools";

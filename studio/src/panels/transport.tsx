@@ -1,4 +1,4 @@
-// Play, pause, step, scrub, slow motion. The scale follows the clock without React in between.
+// Play, pause, step, scrub, slow motion. The scale follows the clock without involving React.
 import { useEffect, useRef } from "react";
 import { runCommand } from "../commands";
 import { shortNumber } from "../model/units";

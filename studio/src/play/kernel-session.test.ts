@@ -1,4 +1,4 @@
-// What follows from the text, with a kernel that the test plays: nothing of an older text may count as of the present one.
+// Everything derived from the text, with a simulated kernel: nothing from an older text may count for the present one.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { edit, openText, undo } from "../actions";
 import { KernelFault } from "../kernel/fault";
@@ -57,7 +57,7 @@ const MODEL = `[body.a]\nmass = "1 kg"\nmarkers.A = [0, 0]\n[simulate]\nduration
 const OTHER = MODEL.replace("1 kg", "2 kg");
 const answer = (method: string) => ({ outcome: "completed", method, columns: [], values: [], joints: [] }) as unknown as RunAnswer;
 
-/** Until the kernel session has asked what it asks after a pause. */
+/** Waits until the kernel session has sent the requests that it makes after a pause. */
 const rest = () => vi.advanceTimersByTimeAsync(100);
 const last = () => BegunRun.all.at(-1)!;
 

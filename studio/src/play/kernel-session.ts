@@ -1,5 +1,5 @@
-// Keeps what follows from the text up to date: complaints, assembled poses, the check's report, the run. Whatever is asked
-// for an older text is forgotten when it answers.
+// Keeps everything derived from the text up to date: complaints, assembled poses, the check's report, the run. Answers for
+// an older text are discarded.
 import { asFault, localComplaints, onOpened, say } from "../actions";
 import { type DragSession, type Kernel, type RunHandle, startKernel } from "../kernel/kernel";
 import type { Catalog, Fault, RunAnswer, RunProgress } from "../kernel/protocol";
@@ -22,7 +22,7 @@ export const catalog = (): Promise<Catalog> => (catalogAnswer ??= kernel.catalog
 let schemaAnswer: Promise<Record<string, unknown>> | null = null;
 export const schema = (): Promise<Record<string, unknown>> => (schemaAnswer ??= kernel.schema());
 
-/** Watches the text for as long as the page is there. */
+/** Watches the text for the lifetime of the page. */
 export function startKernelSession(): void {
   let text: string | null = null;
   const look = () => {
@@ -34,7 +34,7 @@ export function startKernelSession(): void {
     timer = setTimeout(() => void refresh(now), 40);
   };
   studio.subscribe(look);
-  // Opening what is open already leaves the text as it is, and nothing of what was computed for it.
+  // Opening the text that is already open leaves it unchanged, but discards everything computed for it.
   onOpened(() => {
     text = null;
     look();
@@ -42,7 +42,7 @@ export function startKernelSession(): void {
   look();
 }
 
-/** What is under way, and what can be dragged, is of another text from now on. */
+/** From now on, what is under way and what can be dragged belongs to an older text. */
 function forget(): void {
   generation++;
   running?.cancel();
@@ -98,7 +98,7 @@ async function assemble(text: string, current: () => boolean): Promise<void> {
 
 let checking: Promise<unknown> = Promise.resolve();
 
-// One at a time: of the texts that came while a long check was made, only the last one is checked.
+// One check at a time: of the texts that arrive during a long check, only the last is checked.
 function check(text: string, current: () => boolean): void {
   if (studio.get().model.bodies.length === 0) return;
   checking = checking.then(async () => {
@@ -127,7 +127,7 @@ function startRun(text: string, current: () => boolean): void {
     })
     .catch((error: unknown) => {
       if (!current()) return;
-      // Ended along with another run that did not stop in time, and not by the user: asked again.
+      // The run was ended together with another one that did not stop in time, and not by the user: it is started again.
       if (running === handle && wasEnded(error)) return startRun(text, current);
       studio.set((now) => ({ run: { ...NO_RUN, status: "failed", fault: asFault(error), serial: now.run.serial + 1 } }));
     });
@@ -153,19 +153,19 @@ function runGhost(text: string): void {
     });
 }
 
-// Its run is ended too; what it still answers counts no more.
+// Its run is ended too; answers that still arrive are ignored.
 function dropGhost(): void {
   ghostRun?.cancel();
   ghostRun = null;
   studio.set((now) => (now.ghost.answer ? { ghost: { ...now.ghost, answer: null } } : {}));
 }
 
-/** Shows or hides the run with ideal joints behind the model's own. */
+/** Shows or hides the run with ideal joints behind the model's own run. */
 export function setGhost(on: boolean): void {
   dropGhost();
   studio.set({ ghost: { on, answer: null } });
   const { history, run, model, stale } = studio.get();
-  // While the model's own run is computed the ghost waits for it.
+  // While the model's own run is being computed, the ghost waits for it.
   if (on && run.status !== "running" && !stale && model.bodies.length > 0) runGhost(history.text);
 }
 
@@ -176,7 +176,7 @@ export function cancelRun(): void {
 
 const wasEnded = (error: unknown): boolean => asFault(error).kind === "ended";
 
-/** Drags a point of a body while nothing runs: one question at a time, the newest target wins. */
+/** Drags a point of a body while nothing is running: one request at a time, and the newest target wins. */
 export class KinematicDrag {
   private busy = false;
   private waiting: [number, number] | null = null;
@@ -209,7 +209,7 @@ export class KinematicDrag {
       this.last = answer.poses.slice();
       this.poses = posesFrom(session.bodies, answer.poses);
       studio.set({ poses: this.poses });
-      // The hold is soft: it is asked again while the point still comes nearer.
+      // The hold is soft: the request is repeated as long as the point still approaches the target.
       const pose = this.poses.get(this.body);
       const left = pose ? distance(toWorld(pose, this.point), target) : 0;
       if (!this.waiting && left < 0.98 * this.left && left > 1e-6) this.waiting = target;

@@ -1,20 +1,20 @@
-// A live motion to look at: a session of the kernel, and the frames that it has given.
+// The display side of a live motion: a session of the kernel, and the frames it has delivered.
 import type { Frame } from "../drawing/scene";
 import type { LiveSession } from "../kernel/kernel";
 import type { Fault, LiveFrame } from "../kernel/protocol";
 import { ORIGIN, type Pose } from "../model/geometry";
 import { GROUND, type Model } from "../model/model";
 
-/** Frames that can be scrubbed through; at sixty a second, a minute and a half. */
+/** Number of frames that can be scrubbed through: at sixty per second, a minute and a half. */
 const RECORD = 5400;
 
 export class Live {
-  /** The session has been asked for a frame and has not answered. */
+  /** The session has been asked for a frame and has not answered yet. */
   asking = false;
-  /** Why the motion stands still, as the last frame said. */
+  /** Why the motion is stopped, according to the last frame. */
   fault: Fault | null = null;
   private readonly frames: LiveFrame[] = [];
-  /** The frame shown; the last one while it plays. */
+  /** The frame shown; the last one during playback. */
   private shown = -1;
   private readonly bodies: ReadonlyMap<string, number>;
   private readonly joints: ReadonlyMap<string, number>;
@@ -22,7 +22,7 @@ export class Live {
 
   constructor(
     readonly session: LiveSession,
-    /** The text that it moves by. */
+    /** The text that it simulates. */
     readonly text: string,
   ) {
     const indices = (names: readonly string[]) => new Map(names.map((name, i): [string, number] => [name, i]));
@@ -48,14 +48,14 @@ export class Live {
     this.shown = this.frames.length - 1;
   }
 
-  /** Shows the frame at a time; which time that is. */
+  /** Shows the frame at a time, and returns that frame's time. */
   seek(t: number): number {
     const at = this.frames.findIndex((frame) => frame.t >= t);
     this.shown = at < 0 ? this.frames.length - 1 : at;
     return this.frames[this.shown]?.t ?? 0;
   }
 
-  /** By names: the model on the page can be another than the one that moves, until there is a session for it. */
+  /** By names: until there is a session for the model on the page, that model can differ from the moving one. */
   frame(model: Model, otherwise: (name: string) => Pose): Frame {
     const frame = this.frames[this.shown];
     const poses = frame?.poses ?? this.session.start.poses;

@@ -1,4 +1,4 @@
-// Two kernels that the test plays: who computes a long run, and what happens when the server goes away.
+// Two simulated kernels: which one computes a long run, and what happens if the server is lost.
 import { describe, expect, it } from "vitest";
 import type { RunOptions } from "../kernel/kernel";
 import type { RunAnswer } from "../kernel/protocol";

@@ -1,11 +1,11 @@
-// Where a run is computed. It begins in the browser, which answers short runs before a server could; a long one moves to the native
-// kernel where there is one, and the browser's goes on until the native one is seen to move.
+// Where a run is computed. It begins in the browser, which finishes short runs before a server could; a long one moves to the native
+// kernel if there is one, and the browser's run continues until the native one makes progress.
 import type { Kernel, RunHandle } from "../kernel/kernel";
 import type { RunAnswer, RunProgress } from "../kernel/protocol";
 
-/** With more than this left a run goes to the native kernel [s]. */
+/** A run with more than this time left goes to the native kernel [s]. */
 const LONG = 3;
-/** Before this the estimate of what is left says little [s]. */
+/** Before this time the estimate of the remaining time is unreliable [s]. */
 const SETTLED = 0.5;
 
 export function runWhereFastest(kernel: Pick<Kernel, "run">, text: string, mayMove: () => boolean, onProgress: (progress: RunProgress) => void): RunHandle {
@@ -55,7 +55,7 @@ export function runWhereFastest(kernel: Pick<Kernel, "run">, text: string, mayMo
         },
         (error: unknown) => {
           native = null;
-          // A server that refuses or does not answer costs nothing; one that is lost on the way costs the way.
+          // A server that refuses or does not answer costs nothing; if one is lost during the run, its work is lost.
           if (!moved) return;
           if (cancelled) return reject(error);
           moved = false;

@@ -1,4 +1,4 @@
-// A run whose progress and end the test decides.
+// A run whose progress and end are controlled by the test.
 import type { RunHandle, RunOptions } from "../kernel/kernel";
 import type { RunAnswer, RunProgress } from "../kernel/protocol";
 

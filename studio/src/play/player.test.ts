@@ -1,4 +1,4 @@
-// The clock of the page, with frames that the test asks for and live sessions that it plays.
+// The clock of the page, with frames triggered by the test and simulated live sessions.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { chooseTool, edit, openText } from "../actions";
 import type { LiveOptions, LiveSession } from "../kernel/kernel";
@@ -49,7 +49,7 @@ const MODEL = `[ground.markers]\nO = [0, 0]\n[body.a]\nmass = "1 kg"\nmarkers.A 
 let callbacks: ((now: number) => void)[] = [];
 let clock = 0;
 
-/** Some frames of the page, with time between them for what answers later. */
+/** Some frames of the page, with time in between for asynchronous answers. */
 async function frames(count = 1): Promise<void> {
   for (let i = 0; i < count; i++) {
     clock += 16;

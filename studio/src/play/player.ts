@@ -1,5 +1,5 @@
 // The clock of the page: what the drawing shows at this moment. It replays the run, or takes frames of a live motion, and
-// tells once a frame whoever draws.
+// notifies the drawing code once per frame.
 import { asFault, onOpened, say } from "../actions";
 import type { Frame } from "../drawing/scene";
 import type { Fault, LiveFrame, Pull } from "../kernel/protocol";
@@ -10,7 +10,7 @@ import { kernel } from "./kernel-session";
 import { Live } from "./live";
 import { Replay } from "./replay";
 
-/** A text that changes faster than this is followed by the live motion when it rests [ms]. */
+/** If the text changes more often than this, the live motion follows it only after a pause [ms]. */
 const REST = 120;
 
 class Player {
@@ -19,10 +19,10 @@ class Player {
   private ghostReplay: Replay | null = null;
   private serial = -1;
   private live: Live | null = null;
-  /** Counts what was wished of live motions: a session that opens for an older wish is closed again. */
+  /** Counts requests for live motions: a session that opens for an outdated request is closed again. */
   private wish = 0;
   private starting = false;
-  /** The newest text that the live motion was asked to follow. */
+  /** The newest text that the live motion was told to follow. */
   private followed = "";
   private restTimer: ReturnType<typeof setTimeout> | undefined;
   private pull: Pull | null = null;
@@ -39,7 +39,7 @@ class Player {
     onOpened(() => this.endLive());
   }
 
-  /** Begins the loop. */
+  /** Starts the loop. */
   start(): void {
     const tick = (now: number) => {
       requestAnimationFrame(tick);
@@ -53,7 +53,7 @@ class Player {
     requestAnimationFrame(tick);
   }
 
-  // What fails in one frame may go well in the next. It is told once, not sixty times a second.
+  // What fails in one frame may succeed in the next. It is reported once, not sixty times a second.
   private attempt(work: () => void): void {
     try {
       work();
@@ -82,12 +82,12 @@ class Player {
     return this.current()?.end ?? studio.get().model.duration ?? 1;
   }
 
-  /** Model time where the scale begins. */
+  /** Model time at the start of the scale. */
   get begin(): number {
     return this.live?.begin ?? 0;
   }
 
-  /** Decimals of the clock: as many as tell two frames apart, three at least. */
+  /** Decimals of the clock: enough to distinguish two frames, at least three. */
   get digits(): number {
     const step = this.live ? 0.01 : (this.current()?.step ?? 0.01);
     return Math.min(Math.max(3, Math.ceil(-Math.log10(step) - 1e-9)), 7);
@@ -97,12 +97,12 @@ class Player {
     return this.live?.behind ?? false;
   }
 
-  /** Longest force of what is shown, for the arrows [N]. */
+  /** Longest force shown, for the arrows [N]. */
   get forceScale(): number {
     return Math.max(this.current()?.typicalForce ?? 0, this.live?.session.start.force_scale ?? 0);
   }
 
-  /** A live motion is asked for and has not begun. */
+  /** A live motion has been requested and has not started yet. */
   get opening(): boolean {
     return this.starting;
   }
@@ -158,7 +158,7 @@ class Player {
       });
   }
 
-  // An obstacle that is not the motion's own, of assembly or reading, is left alone.
+  // An obstacle that does not come from the motion, but from assembly or reading, is left alone.
   private tell(live: Live, fault: Fault | null): void {
     const { obstacle } = studio.get();
     if (obstacle !== null && obstacle !== live.fault) return;
@@ -167,7 +167,7 @@ class Player {
     studio.set({ obstacle: fault });
   }
 
-  // A live motion belongs to its mode and to its text.
+  // A live motion is tied to its mode and its text.
   private follow(): void {
     const { mode, tool, history } = studio.get();
     if (this.starting && tool !== "select") return this.endLive();
@@ -180,14 +180,14 @@ class Player {
     this.restTimer = setTimeout(() => void this.reopen(), REST);
   }
 
-  // The changed mechanism goes on where the old one stands. While its text is refused, which the kernel session tells, the old one moves.
+  // The changed mechanism continues from the state of the old one. While its text is rejected, which the kernel session reports, the old one keeps moving.
   private async reopen(): Promise<void> {
     const old = this.live;
     const { history, stale, model } = studio.get();
     if (!old || stale || history.text === old.text) return;
     if (model.bodies.length === 0) return this.stop();
     const mine = ++this.wish;
-    // A position over time would jump: the clock of a new session begins at 0.
+    // A position as a function of time would jump, because the clock of a new session starts at 0.
     const like = model.motors.some((motor) => motor.kind === "position") ? undefined : old.session;
     const session = await kernel.openLive(history.text, { like }).catch(() => null);
     if (!session) return;
@@ -211,7 +211,7 @@ class Player {
     this.tell(live, null);
   }
 
-  /** Play or pause: the run where there is one, else the live motion. */
+  /** Play or pause: the run if there is one, else the live motion. */
   toggle(): void {
     const { playing, mode, model } = studio.get();
     if (playing) return studio.set({ playing: false });
@@ -243,13 +243,13 @@ class Player {
     this.dirty = true;
   }
 
-  /** One frame on or back. */
+  /** One frame forwards or back. */
   step(direction: number): void {
     studio.set({ playing: false });
     this.seek(this.t + direction * (this.current()?.step ?? 0.01));
   }
 
-  /** Starts a live motion at model time t, where the replay stands. */
+  /** Starts a live motion at model time t, from the state of the replay. */
   async goLive(t = this.t): Promise<void> {
     if (this.starting) return;
     if (this.live) return studio.set({ playing: true });
@@ -270,7 +270,7 @@ class Player {
     }
   }
 
-  // Null where it is not wanted any more.
+  // Null if it is no longer wanted.
   private async opened(t: number, wanted: () => boolean): Promise<Live | null> {
     const { text } = studio.get().history;
     const session = await kernel.openLive(text);
@@ -289,7 +289,7 @@ class Player {
     return live;
   }
 
-  /** Pulls a point of a body; null lets go. Where a replay runs it becomes a live motion. */
+  /** Pulls a point of a body; null releases it. A running replay becomes a live motion. */
   setPull(pull: Pull | null): void {
     this.pull = pull;
     if (pull && studio.get().mode !== "live") void this.goLive();
@@ -301,7 +301,7 @@ class Player {
     return this.pull;
   }
 
-  /** Where everything is now. */
+  /** The current poses and forces. */
   frame(): Frame {
     const { mode, model, poses } = studio.get();
     const still = (name: string): Pose => poseOf(model, name, poses ?? undefined);
@@ -317,12 +317,12 @@ class Player {
     return this.ghostReplay ? this.ghostReplay.frame(mode === "edit" ? 0 : this.t, model, (name) => poseOf(model, name)) : null;
   }
 
-  /** What the mechanism passes over in the run. */
+  /** The area that the mechanism covers during the run. */
   reachOfRun(): { min: Point; max: Point } | null {
     return this.current()?.box(studio.get().model) ?? null;
   }
 
-  /** Between which slides a sliding joint moves in the run [m]. */
+  /** The range of slide of a sliding joint in the run [m]. */
   slides(joint: string): [number, number] | null {
     return this.current()?.range(joint, "slide") ?? null;
   }

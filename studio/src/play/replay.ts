@@ -1,4 +1,4 @@
-// A finished run as something to look at: poses and joint forces at any time of it.
+// The display side of a finished run: poses and joint forces at any time.
 import type { Frame } from "../drawing/scene";
 import type { Column, RunAnswer } from "../kernel/protocol";
 import { type Point, type Pose, toWorld } from "../model/geometry";
@@ -88,7 +88,7 @@ export class Replay {
     return path;
   }
 
-  /** What all points of the bodies pass over in the run, from some fifty of its instants. */
+  /** The area that all points of the bodies cover in the run, from about fifty instants. */
   box(model: Model): { min: Point; max: Point } | null {
     let [left, bottom, right, top] = [Infinity, Infinity, -Infinity, -Infinity];
     const stride = Math.max(1, Math.floor(this.time.length / 50));

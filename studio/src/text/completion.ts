@@ -1,4 +1,4 @@
-// Completion from the schema: tables after "[", keys at the beginning of a line, words and names of the model in quotes.
+// Completion from the schema: tables after "[", keys at the start of a line, words and names of the model in quotes.
 import type { Completion, CompletionContext, CompletionResult } from "@codemirror/autocomplete";
 import { fieldsOf } from "../panels/properties/form";
 import { schema } from "../play/kernel-session";

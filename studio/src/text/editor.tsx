@@ -1,4 +1,4 @@
-// The model's text beside its drawing. Both are the same text: what is typed here is drawn, what is drawn is written here.
+// The model's text beside its drawing. Both represent the same text: typing changes the drawing, and drawing changes the text.
 import { type CompletionContext, autocompletion, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, indentWithTab } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
@@ -29,7 +29,7 @@ const colours = HighlightStyle.define([
   { tag: tags.heading, color: "var(--accent-text)", fontWeight: "600" },
 ]);
 
-/** Puts the cursor at a place of the text, now or once the editor is there. */
+/** Moves the cursor to a place in the text, now or once the editor exists. */
 export function showPlace(line: number, column: number): void {
   wanted = { line, column };
   if (shown) goToWanted(shown);
@@ -64,7 +64,7 @@ function sameText(view: EditorView, text: string): void {
   view.dispatch({ changes: { from: start, to: now.length - end, insert: text.slice(start, text.length - end) }, annotations: FromDrawing.of(true) });
 }
 
-// What is selected in the drawing is shown in the text.
+// Shows in the text what is selected in the drawing.
 function showSelected(view: EditorView): void {
   const thing = studio.get().selection[0];
   if (!thing || view.hasFocus) return;

@@ -1,4 +1,4 @@
-// A link: its size, its shape and material, and what follows from them unless it is stated.
+// A link: its size, its shape and material, and the values derived from them unless they are stated.
 import { edit, place, select } from "../../actions";
 import { Draft, type Literal } from "../../model/edit";
 import { evaluate } from "../../model/expression";

@@ -1,4 +1,4 @@
-// Unsaved work of other tabs, kept in this browser.
+// Unsaved work of other tabs, stored in this browser.
 import { useState } from "react";
 import { forgetDraft, openDraft, otherDrafts } from "../../files/autosave";
 import { draftName } from "../../files/drafts";

@@ -1,4 +1,4 @@
-// Fields with units. A number keeps the unit that its author chose; an expression stays an expression and shows its value.
+// Fields with units. A number keeps its author's unit; an expression remains an expression and shows its value.
 import { useEffect, useId, useState } from "react";
 import { edit } from "../../actions";
 import { Draft, type Literal } from "../../model/edit";
@@ -7,7 +7,7 @@ import { type Plain, nodeAt, plain } from "../../model/toml";
 import { CHOICES, prettyUnit, shortNumber, unitFactor } from "../../model/units";
 import { studio, useStudio } from "../../state";
 
-/** The literal at a path: what stands in the text, or undefined. A key, so that React sees when it changes. */
+/** The literal at a path as written in the text, or undefined. Compared by a key, so that React sees when it changes. */
 export function useLiteral(path: readonly string[]): Plain | undefined {
   const key = useStudio((now) => {
     const node = nodeAt(now.model.document.root, path);
@@ -21,7 +21,7 @@ export function setLiteral(path: readonly string[], value: Literal | null, label
   const draft = new Draft(model.document);
   if (value === null) draft.remove(path);
   else draft.set(path, value);
-  // A value that is typed is no longer the one that follows from a shape.
+  // A typed value is no longer derived from a shape.
   if (value !== null && path[0] === "body" && (path[2] === "mass" || path[2] === "inertia")) draft.remark(path, "");
   edit(draft.apply(), label);
 }
@@ -53,7 +53,7 @@ interface QuantityProps {
   literal: Plain | undefined;
   fallback?: string;
   meaning?: string;
-  /** Names beyond the parameters that may be used: t, angle, rate. */
+  /** Names other than parameters that may be used: t, angle, rate. */
   variables?: boolean;
   required?: boolean;
   note?: React.ReactNode;
@@ -140,7 +140,7 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
   );
 }
 
-// Up and down by one of the second digit.
+// Increments or decrements the second digit.
 function stepped(value: number, direction: number): string {
   const power = value === 0 ? 1 : 10 ** (Math.floor(Math.log10(Math.abs(value))) - 1);
   return String(Number((value + direction * power).toPrecision(10)));

@@ -9,7 +9,7 @@ export interface Field {
   meaning: string;
   kind: "quantity" | "expression" | "pair" | "word" | "words" | "truth" | "text" | "name";
   words?: string[];
-  /** Words that a file may say instead, with the one of `words` that each stands for. */
+  /** Words also accepted in a file, with the entry of `words` that each stands for. */
   synonyms?: Record<string, string>;
   fallback?: string;
   required: boolean;
@@ -31,8 +31,8 @@ interface SchemaTable {
   required?: string[];
 }
 
-/** Keys of a table of the schema: ["spring"] for [spring.NAME], ["simulate"]; with `inner` of a table in it: "bearing" for [joint.NAME.bearing].
- *  Tables are no keys. `slides` picks the sliding of two meanings. */
+/** Keys of a table of the schema: ["spring"] for [spring.NAME], ["simulate"]; with `inner`, of a table in it: "bearing" for [joint.NAME.bearing].
+ * Tables are not keys. Of two meanings, `slides` picks the one for sliding. */
 export function fieldsOf(root: Record<string, unknown> | null, table: string, slides = false, inner = ""): Field[] {
   const at = (root as SchemaTable | null)?.properties?.[table];
   const outer: SchemaTable | undefined = typeof at?.additionalProperties === "object" ? at.additionalProperties : at;
@@ -88,7 +88,7 @@ export function useCatalog(): Catalog | null {
   return answer;
 }
 
-/** "free_length" as a label. */
+/** The label for "free_length" and the like. */
 export function labelOf(name: string): string {
   const words = name.replace(/_/g, " ");
   return words.charAt(0).toUpperCase() + words.slice(1);

@@ -1,4 +1,4 @@
-// Joints, springs, loads and motors: forms made from the catalog and the schema.
+// Joints, springs, loads and motors: forms generated from the catalog and the schema.
 import { drawn, edit, select } from "../../actions";
 import type { Catalog, CatalogKey, PeakForce } from "../../kernel/protocol";
 import { Draft } from "../../model/edit";
@@ -59,7 +59,7 @@ function ProfileFields({ joint }: { joint: Joint }) {
   );
 }
 
-/** Sizes of the bearing, and what the last run makes of them. */
+/** Dimensions of the bearing, and its results from the last run. */
 function BearingFields({ name }: { name: string }) {
   const schema = useSchema();
   const found = useStudio((now) => now.run.answer?.bearings?.find((one) => one.joint === name));
@@ -114,7 +114,7 @@ function PeakLine({ peak, estimate }: { peak: PeakForce; estimate: string }) {
   );
 }
 
-/** How the joint resists: the law's word and its numbers, with their units and defaults. */
+/** The joint's resistance: the law's word and its numbers, with their units and defaults. */
 function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }) {
   const ideal = useLiteral(["joint", joint.name, "ideal"]);
   if (!catalog) return <p className="quiet">The laws are loading…</p>;
@@ -147,7 +147,7 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   );
 }
 
-/** Friction, stops or a detent of what the joint leaves free, beside its law. What the model's defaults say holds for a joint that says nothing. */
+/** Friction, stops or a detent of the joint's free coordinate, in addition to its law. A joint that states nothing has the model's defaults. */
 function LawsBeside({ joint, catalog, suits, role, label }: { joint: Joint; catalog: Catalog; suits: Catalog["laws"]; role: Exclude<Role, "law">; label: string }) {
   const word = useLiteral(["joint", joint.name, role]);
   const inherited = useLiteral(["defaults", "joint", role]);
@@ -183,7 +183,7 @@ function LawKeys({ law, path }: { law: Catalog["laws"][number]; path: readonly s
 
 const lawName = (word: string) => (word === "linear" ? "linear (stiffness and damping)" : word.replace(/_/g, " "));
 
-/** Usual values of real joints. */
+/** Typical values of real joints. */
 const PRESETS: { label: string; tip: string; stiffness: string; damping: string }[] = [
   { label: "Stiff", tip: "Nearly ideal: 1e10 N/m", stiffness: "1e10 N/m", damping: "1e5 N*s/m" },
   { label: "Bearing", tip: "A rolling-element bearing: 2e8 N/m", stiffness: "2e8 N/m", damping: "3500 N*s/m" },
@@ -209,7 +209,7 @@ function Presets({ joint }: { joint: Joint }) {
   );
 }
 
-/** Dry friction of every joint that can have it, unless it says otherwise. */
+/** Dry friction of every joint that can have it, unless the joint says otherwise. */
 export function DefaultFriction({ catalog }: { catalog: Catalog | null }) {
   const word = useLiteral(["defaults", "joint", "friction"]);
   const laws = catalog?.laws.filter((one) => one.role === "friction") ?? [];

@@ -1,4 +1,4 @@
-// The choice of a law, with a kernel that the test plays: what is written, kept and taken away. tests/law_choice.test.ts asks the kernel itself.
+// The choice of a law, with a simulated kernel: what is written, kept and removed. tests/law_choice.test.ts uses the real kernel.
 import { beforeEach, expect, it, vi } from "vitest";
 import { edit, openText, undo } from "../../actions";
 import type { Catalog, CatalogKey } from "../../kernel/protocol";

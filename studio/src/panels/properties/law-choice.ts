@@ -1,5 +1,5 @@
-// Another law of a joint, or another friction, stops or detent beside it: with a value for each key that it must have there, without those
-// that only the former law knew. Which must be stated, the kernel says: it depends on the joint, and on the model's defaults.
+// Chooses another law of a joint, or other friction, stops or detent in addition to it: adds a value for each key that is required, and removes those
+// that only the former law had. The kernel determines the required keys: they depend on the joint, and on the model's defaults.
 import { edit } from "../../actions";
 import type { Catalog, CatalogKey, Complaint } from "../../kernel/protocol";
 import { Draft, type Literal } from "../../model/edit";
@@ -13,19 +13,19 @@ export type Role = Law["role"];
 
 const ROLES: readonly Role[] = ["law", "friction", "stops", "detent"];
 
-/** An empty word takes the law of this role away, or leaves it to the model's defaults. One step of undo. */
+/** An empty word removes the law of this role, or leaves it to the model's defaults. One undo step. */
 export async function chooseLaw(catalog: Catalog, joint: Joint, role: Role, word: string): Promise<void> {
   const stated = (at: Role) => (at === "law" ? find(catalog, at, joint.law) : (statedLaw(catalog, at, joint) ?? statedLaw(catalog, at, null)));
   await choose(catalog, joint, role, word, stated(role), ROLES.filter((one) => one !== role).map(stated));
 }
 
-/** Dry friction of all joints that can have it; an empty word takes it away. One step of undo. */
+/** Dry friction of all joints that can have it; an empty word removes it. One undo step. */
 export async function chooseDefaultFriction(catalog: Catalog, word: string): Promise<void> {
   const others = studio.get().model.joints.flatMap((joint) => [find(catalog, "law", joint.law), statedLaw(catalog, "friction", joint)]);
   await choose(catalog, null, "friction", word, statedLaw(catalog, "friction", null), others);
 }
 
-/** Whose law it is: a joint's, or with null that of all joints that say nothing. */
+/** The owner of the law: a joint, or null for all joints that state none. */
 type Owner = Joint | null;
 
 const tableOf = (owner: Owner) => (owner ? ["joint", owner.name] : ["defaults", "joint"]);
@@ -43,16 +43,16 @@ async function choose(catalog: Catalog, owner: Owner, role: Role, word: string, 
   const law = find(catalog, role, word);
   const keys = [law, ...others].flatMap((one) => one?.keys ?? []);
   const draft = new Draft(document);
-  // Values that no law knows any more would be errors.
+  // Values that no longer belong to any law would be errors.
   for (const { name } of before?.keys ?? []) if (keys.every((one) => one.name !== name)) draft.remove([...table, name]);
   if (word) draft.set([...table, role], word);
   else draft.remove([...table, role]);
   const text = law ? await withMissingKeys(draft.apply(), owner, law) : draft.apply();
-  if (studio.get().model.document !== document) return; // the answer came too late: there is another text
+  if (studio.get().model.document !== document) return; // the answer came too late: the text has changed
   edit(text, `${role.charAt(0).toUpperCase()}${role.slice(1)} of ${owner?.name ?? "all joints"}`);
 }
 
-/** States the keys of the law that the kernel misses. It asks again, because some are missed only when others are there. */
+/** Adds the keys of the law that the kernel reports as missing. It asks repeatedly, because some are missing only when others are present. */
 async function withMissingKeys(text: string, owner: Owner, law: Law): Promise<string> {
   const table = tableOf(owner);
   const tried = new Set<string>();
@@ -70,8 +70,8 @@ async function withMissingKeys(text: string, owner: Owner, law: Law): Promise<st
   }
 }
 
-/** Of what a law misses without naming one key, such as where its stops are, the hint names those that would do. What all joints share is missed by any of them. A key with a default is not missing,
- *  even if its default does not go with another value. */
+/** If a law lacks something but no single key, such as the positions of its stops, the hint names the possible keys. A key shared by all joints is missing if any joint lacks it. A key with a default is not missing,
+ * even if its default is inconsistent with another value. */
 function misses(complaint: Complaint, owner: Owner, role: Role, key: CatalogKey): boolean {
   if (key.default) return false;
   const of = (name: string) => (owner ? complaint.key === `joint.${owner.name}.${name}` : complaint.key.startsWith("joint.") && complaint.key.endsWith(`.${name}`));
@@ -79,7 +79,7 @@ function misses(complaint: Complaint, owner: Owner, role: Role, key: CatalogKey)
   return of(key.name);
 }
 
-/** What keys begin with that have no default: on a length, and on an angle if that is another value. */
+/** Start values of keys without a default: for a length, and for an angle if that is different. */
 const STARTS: Readonly<Record<string, Literal | { slide: Literal; angle: Literal }>> = {
   clearance: "0.5 mm",
   pin_radius: "10 mm",

@@ -1,4 +1,4 @@
-// The model as a whole: parameters, gravity, how it is run.
+// The model as a whole: parameters, gravity, run settings.
 import { useState } from "react";
 import { edit } from "../../actions";
 import { Draft } from "../../model/edit";

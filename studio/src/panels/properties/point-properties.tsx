@@ -1,4 +1,4 @@
-// A point of a link or of the ground: where it is, and the direction of its axis.
+// A point of a link or of the ground: its position, and the direction of its axis.
 import { place } from "../../actions";
 import { evaluate } from "../../model/expression";
 import type { Literal } from "../../model/edit";

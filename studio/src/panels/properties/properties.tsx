@@ -1,4 +1,4 @@
-// What is selected, and all that can be said about it.
+// The selection and all its properties.
 import { edit, meshSelection, removeSelection, select } from "../../actions";
 import { type Model, gearRadius } from "../../model/model";
 import { NAME, type Kind, namesOf } from "../../model/names";
@@ -77,7 +77,7 @@ function Many({ selection, model }: { selection: readonly Thing[]; model: Model 
   );
 }
 
-/** With nothing selected: all that is in the model, to choose from. */
+/** If nothing is selected: everything in the model, to choose from. */
 function Contents({ model }: { model: Model }) {
   const groups: [string, Kind, { name: string; about: string }[]][] = [
     ["Links", "body", model.bodies.map((one) => ({ name: one.name, about: `${Number(one.mass.toPrecision(3))} kg` }))],

@@ -1,4 +1,4 @@
-// The energy account: what was there, what came in, what went, and what does not add up.
+// The energy account: initial energy, energy supplied, energy lost, and the error of the balance.
 import type { RunAnswer } from "../../kernel/protocol";
 import { quantity, shortNumber } from "../../model/units";
 import { useStudio } from "../../state";

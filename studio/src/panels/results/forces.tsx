@@ -1,4 +1,4 @@
-// Peak forces of joints and springs, with what is known of their error; and what the motors did.
+// Peak forces of joints and springs, with what is known of their errors; and the work of the motors.
 import { select } from "../../actions";
 import type { PeakForce } from "../../kernel/protocol";
 import { quantity, shortNumber } from "../../model/units";

@@ -1,4 +1,4 @@
-// Plots of any quantity over time: an axis for each unit, values under the cursor, a click leads the mechanism there.
+// Plots of any quantity over time: one axis per unit, values at the cursor; a click moves the mechanism to that time.
 import { useEffect, useMemo, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
@@ -77,7 +77,7 @@ function Plot({ series, time, kept }: PlotProps) {
   return <div className="plot" ref={home} role="img" aria-label={`Plot of ${series.map((one) => one.label).join(", ") || "nothing"} over time`} />;
 }
 
-/** The lines that the kept run has too, in the order in which they follow those of the run itself. */
+/** The lines that the kept run also has, in the order in which they follow the lines of the run itself. */
 function keptLines(series: readonly Series[], kept: PlotProps["kept"]): { one: Series; i: number; values: Series["values"] }[] {
   return series.flatMap((one, i) => {
     const other = kept?.series.find((candidate) => candidate.id === one.id);
@@ -132,7 +132,7 @@ function makePlot(element: HTMLElement, series: readonly Series[], time: Float64
   return plot;
 }
 
-/** A dot on every line that knows its peak. */
+/** A dot on every line whose peak is known. */
 function drawPeaks(plot: uPlot, series: readonly Series[], colours: readonly string[]) {
   plot.ctx.save();
   series.forEach((one, i) => {

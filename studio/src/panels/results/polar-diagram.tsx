@@ -1,4 +1,4 @@
-// The polar load diagram of a pin beside the plots: rings of equal force, the path of the force's tip, the largest force, and the force now.
+// The polar load diagram of a pin, next to the plots: rings of equal force, the path of the force's tip, the largest force, and the current force.
 import { useEffect, useMemo, useRef, useState } from "react";
 import type { PeakForce, RunAnswer } from "../../kernel/protocol";
 import { quantity } from "../../model/units";
@@ -11,9 +11,9 @@ import { nearest } from "./series";
 const SIDE = 200;
 const RADIUS = 84;
 const SPOKES = Array.from({ length: 12 }, (_, i) => (i * Math.PI) / 6);
-const LESS = 0.4; // between two points of a path that are drawn
+const LESS = 0.4; // minimum distance between two drawn points of a path
 
-/** Of the pin that is selected, where the run has one of that name. */
+/** The selected pin, if the run has one of that name. */
 export function usePin(answer: RunAnswer | null): PeakForce | null {
   const selection = useStudio((now) => now.selection);
   const [only, more] = selection;
@@ -105,7 +105,7 @@ function Picture({ about, path, keptPath, time, peak }: PictureProps) {
   );
 }
 
-/** Through the rows; a row without numbers interrupts it. */
+/** A line through the rows; a row without numbers interrupts it. */
 function lineOf({ x, y }: ForcePath, scale: number): string {
   let line = "";
   let last: [number, number] | null = null;

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Column, PeakForce, RunAnswer } from "../../kernel/protocol";
 import { type ForcePath, forcePath, longest, peakTip, ringsUpTo, rowNearestTo } from "./polar";
 
-// A body that turns about a pin of the ground, whose force points along the arm: in the axes of the marker on the body it stands still.
+// A body that rotates about a pin on the ground; the force points along the arm, so it is constant in the axes of the marker on the body.
 const ARM = 0.3;
 const time = Float64Array.from({ length: 13 }, (_, i) => i / 12);
 const angle = time.map((t) => 2 * Math.PI * t);

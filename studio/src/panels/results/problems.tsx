@@ -81,7 +81,7 @@ function setDuration(): void {
   edit(new Draft(studio.get().model.document).set(["simulate", "duration"], "2 s").apply(), "Set duration");
 }
 
-// 'did you mean "revolute"?' at a value of the text: the value can be replaced at once.
+// 'did you mean "revolute"?' for a value of the text: the value can be replaced immediately.
 function suggestion(complaint: { hint: string; line: number; column: number; length: number }): Problem["fixes"] {
   const word = /did you mean "([^"]+)"/.exec(complaint.hint)?.[1];
   if (!word || complaint.line <= 0) return [];

@@ -1,4 +1,4 @@
-// One line on the state of the run: computing, done in so much, stopped.
+// One line on the state of the run: computing, finished after some time, stopped.
 import { cancelRun } from "../../play/kernel-session";
 import { quantity } from "../../model/units";
 import { runCommand } from "../../commands";

@@ -1,4 +1,4 @@
-// What can be plotted: the run's columns, and the size of each joint's force, which is what one asks for first.
+// What can be plotted: the run's columns, and the magnitude of each joint force, which users usually want first.
 import type { PeakForce, RunAnswer } from "../../kernel/protocol";
 
 export interface Series {
@@ -8,7 +8,7 @@ export interface Series {
   group: string;
   about: string;
   values: () => Float64Array;
-  /** Where it is largest, and how large: between the rows, perhaps. */
+  /** Time and value of its peak, which may lie between the rows. */
   peak?: { t: number; value: number };
 }
 
@@ -17,7 +17,7 @@ const WORDS: Record<string, string> = {
   m: "moment", slide: "slide", slide_rate: "rate of slide", angle_rate: "rate of angle", effort: "effort", power: "power",
 };
 
-/** A column of a joint; in `frame` the force on its second body. */
+/** A column of a joint; if `frame` is given, the force on its second body. */
 export function jointValues(answer: RunAnswer, joint: PeakForce, quantity: string, frame: "" | "world" | "joint" = ""): Float64Array | undefined {
   const feels = frame && joint.second_body;
   return answer.values[answer.columns.findIndex((one) => one.kind === "joint" && one.of === joint.name && one.quantity === quantity && one.frame === frame && one.feels === feels)];
@@ -55,7 +55,7 @@ export function seriesOf(answer: RunAnswer): Series[] {
   return list;
 }
 
-/** The largest forces: what a plot shows before one has chosen. */
+/** The largest forces: plotted until the user chooses. */
 function firstSeries(answer: RunAnswer): string[] {
   return [...answer.joints]
     .sort((a, b) => b.peak - a.peak)
@@ -63,20 +63,20 @@ function firstSeries(answer: RunAnswer): string[] {
     .map((joint) => `joint.${joint.name}.|F|`);
 }
 
-/** What is on the plot: what was chosen, also if that is nothing; else, or where none of it is in this run, what one asks for first. */
+/** The plotted series: those chosen, even if none; if nothing was chosen, or this run has none of the chosen series, the default. */
 export function chosenSeries(all: readonly Series[], plotted: readonly string[] | null, answer: RunAnswer): Series[] {
   const among = (ids: readonly string[]) => ids.map((id) => all.find((one) => one.id === id)).filter((one): one is Series => one !== undefined);
   const found = plotted ? among(plotted) : [];
   return found.length > 0 || plotted?.length === 0 ? found : among(firstSeries(answer));
 }
 
-/** The row of a time: rows are a step apart. */
+/** The row nearest to a time; rows are equally spaced. */
 export function nearest(time: Float64Array, t: number): number {
   const span = (time[time.length - 1] ?? 1) / Math.max(time.length - 1, 1);
   return Math.min(Math.max(Math.round(t / span), 0), time.length - 1);
 }
 
-/** Values at other times, for two runs in one plot; outside of the run there are none. */
+/** Values interpolated at other times, for two runs in one plot; null outside the run. */
 export function resample(time: Float64Array, values: Float64Array, at: Float64Array): (number | null)[] {
   const result: (number | null)[] = [];
   let i = 0;
