@@ -23,6 +23,13 @@ constexpr int kMostModes = 300;       // up to this many rows eigenvectors are c
 constexpr double kDamped = 1e-9;      // pivots below this are raised, so that forces stay finite at singular positions ...
 constexpr double kMisfit = 30;        // ... and those below the square of this multiple of the misfit that redundant rows leave
 
+// Angles count turns and may be far larger than the mechanism: their roundoff is that of their size.
+double largest_number(const Vecs& q) {
+  double largest = 0;
+  for (const S::Vec& each : q) largest = std::max(largest, each.cwiseAbs().maxCoeff());
+  return largest;
+}
+
 // Forces from outside, such as the pressures in a cylinder. Friction and stops of the joint have states, which these equations do not carry.
 S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
   LawInput<double> in{};
@@ -319,7 +326,7 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
       largest = (V * (V.transpose() * scale_.cwiseProduct(missing))).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     }
     if (largest <= kLastBits * size_) return true;
-    if (!(largest < before)) return largest <= 1e3 * kLastBits * size_;  // roundoff, or the loops cannot be closed
+    if (!(largest < before)) return largest <= std::max(1e3 * kLastBits * size_, kLastBits * largest_number(q));  // roundoff, or the loops cannot be closed
     before = largest;
     solve(missing, multipliers);
     push(multipliers, q);                                                                   // (1.4)

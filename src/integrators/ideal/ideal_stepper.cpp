@@ -305,12 +305,10 @@ const State& IdealStepper::interpolate(double t) {
     equations_.complete(inside_);
     return inside_;
   }
-  if (equations_.independence(t, inside_.q) > kFewDigits * most_independent_) {
-    onto_constraints(inside_);
-  } else {
-    equations_.complete(inside_);
-    interpolate_forces(inside_);
-  }
+  const bool independent = equations_.independence(t, inside_.q) > kFewDigits * most_independent_;
+  if (independent && onto_constraints(inside_)) return inside_;
+  equations_.complete(inside_);
+  if (!independent) interpolate_forces(inside_);
   return inside_;
 }
 
