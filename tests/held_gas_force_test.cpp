@@ -119,5 +119,22 @@ TEST(HeldGasForce, WhatARelayLagsBehindIsStated) {
   }
 }
 
+// A bang-bang governor reaches its speed and holds it: where the crank turns at exactly the speed of the comparison, `rate < 25 rad/s` is false. Once that point counted as
+// neither side, and the torque switched on and off in the last bits.
+TEST(HeldGasForce, AGovernorHoldsItsSpeed) {
+  std::vector<double> peaks;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    Model model = reference::test_model("governed_pump");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    EXPECT_LT(run.counters.steps, 8000u) << tolerance;
+    EXPECT_NEAR(reference::at_end(run, "body.crank.spin"), 25, 0.02) << tolerance;
+    peaks.push_back(run.joints.at(0).peak);
+  }
+  EXPECT_NEAR(peaks[0], peaks[2], 1e-3 * peaks[2]);
+  EXPECT_NEAR(peaks[1], peaks[2], 1e-4 * peaks[2]);
+}
+
 }  // namespace
 }  // namespace pintle

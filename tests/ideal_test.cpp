@@ -214,7 +214,7 @@ TEST(Ideal, MotorsStartWithAnAcceleration) {
 
 // A speed may not: ideal joints would need an infinite force. Servos tolerate it, and their bodies follow.
 TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
-  for (const char* motor : {"position = \"if(t < 0.5 s, 1 rad/s*t, 0.5 rad)\"", "speed = \"if(t < 0.5 s, 1 rad/s, 0 rad/s)\""}) {
+  for (const char* motor : {"position = \"if(t < 0.5 s, 1 rad/s*t, 0.5 rad)\"", "speed = \"if(t < 0.5 s, 1 rad/s, 0 rad/s)\"", "speed = \"if(t > 0.5 s, 0 rad/s, 1 rad/s)\""}) {
     const Trajectory failed = simulate(driven_arm(motor, "ideal", "1"));
     EXPECT_EQ(failed.outcome, Outcome::kFailed) << motor;
     EXPECT_NEAR(failed.t_end, 0.5, 1e-9);
@@ -225,6 +225,11 @@ TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
       EXPECT_NEAR(value(run, run.n_rows() - 1, "body.a.spin"), 0, 1e-5) << motor << equations;
       EXPECT_LT(run.energy.drift, 1e-5) << motor << equations;
     }
+  }
+  for (const char* before : {"t < 0.5 s", "t <= 0.5 s"}) {
+    const Trajectory failed = simulate(driven_arm(fmt::format("position = \"if({}, 0, 0.1)\"", before), "ideal"));
+    EXPECT_EQ(failed.outcome, Outcome::kFailed) << before;
+    EXPECT_NE(failed.message.find("motor m is to jump by 0.1 rad at t = 0.5 s"), std::string::npos) << failed.message;
   }
   const Trajectory step = completed(driven_arm("position = \"if(t < 0.5 s, 0, 0.1)\"", "newtonian"));
   EXPECT_NEAR(value(step, step.n_rows() - 1, "body.a.angle"), 0.1, 1e-4);
@@ -242,6 +247,25 @@ TEST(Ideal, AMotorThatStartsOnAKinkHasTheSpeedBehindIt) {
   }
   const Trajectory failed = simulate(driven_arm("position = \"abs(1 rad - 2 rad/s*t)\"", "ideal", "-2"));
   EXPECT_NE(failed.message.find("motor m is to change its speed by 4 rad/s instantly at t = 0.5 s"), std::string::npos) << failed.message;
+}
+
+// A rotor of 3 mm that has turned by ten turns: the roundoff of its angle is more than that of its size. The force across the slide is that of the unbalance alone,
+// m e (w^2 sin - w' cos) of the angle turned, in every row.
+TEST(Ideal, TurnsLargerThanTheMechanismAreClosed) {
+  Model model = reference::test_model("unbalanced_rotor_run_up");
+  model.simulate.equations = Equations::kIdeal;
+  model.simulate.duration = 2.25;
+  model.simulate.output_step = 1e-3;
+  const Trajectory run = completed(model);
+  const auto force = static_cast<std::size_t>(run.column("joint.S.on_frame.fx[world]"));
+  double largest = 0;
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    const double t = run.at(i, 0), spin = 25 * t, angle = 12.5 * t * t;
+    const double unbalance = 10 * 0.003 * (spin * spin * std::sin(angle) - 25 * std::cos(angle));
+    largest = std::max(largest, std::abs(run.at(i, force) - unbalance));
+  }
+  EXPECT_LT(largest, 1e-6);
+  EXPECT_LT(run.counters.evaluations, 20000u);
 }
 
 // Peak and mean of a force that balances a load without any motion do not depend on the steps of the motion: the pin of an arm that a motor holds.

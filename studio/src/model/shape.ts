@@ -85,7 +85,7 @@ export function likelyBar(length: number): Shape {
   return { kind: "bar", width, height: width, thickness: Math.max(niceSize(width / 2), 1e-3), material: "steel" };
 }
 
-/** 1, 2 or 5 times a power of ten, exceeding `size` by at most a third. */
+/** The size rounded to 1, 2 or 5 times a power of ten, at most 43 % above it. */
 export function niceSize(size: number): number {
   const power = 10 ** Math.floor(Math.log10(Math.max(size, 1e-9)));
   const digit = size / power;
