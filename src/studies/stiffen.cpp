@@ -32,6 +32,8 @@ constexpr std::size_t kMostInfluences = 24;  // with more joints than this they 
 constexpr double kGrowth = 5;             // if a peak grows by more than this per tenfold stiffness, it is proportional to the stiffness
 constexpr const char* kInterrupted = "interrupted";
 constexpr double kStiffEnough = 1e9;      // for finding the influence of soft joints if no stiffness was found [N/m]
+constexpr double kTooLong = 30;           // a run is stopped when it has taken this many times as long as the longest before it ...
+constexpr double kShortRun = 0.1;         // ... which counts as this long at least [s]
 constexpr double kNoLongerFalls = 0.5;            // a change above this fraction of the previous step's is no longer falling
 
 double wanted_agreement(const StiffenRequest& request) { return 0.5 * std::pow(10.0, -request.digits); }
@@ -173,7 +175,17 @@ class Procedure {
 
   // False if the procedure cannot continue; the reason then says why.
   bool run(const std::vector<StiffenJoint>& joints, double stiffness, Trajectory& out) {
-    out = simulate(stiffened(model_, joints), observer_);
+    const double most = out_.steps.empty() ? std::numeric_limits<double>::infinity() : kTooLong * std::max(longest_run_, kShortRun);
+    bool too_long = false;
+    out = simulate(stiffened(model_, joints), [&](const Progress& progress) {
+      too_long = progress.wall_seconds > most;
+      return !too_long && (!observer_ || observer_(progress));
+    });
+    longest_run_ = std::max(longest_run_, out.wall_seconds);
+    if (too_long) {
+      out_.reason = fmt::format("the run with {:.0e} N/m was stopped after {:.2g} s, {:g} times as long as the longest before it: joints this stiff ring without end. Try a higher --damping, or --damping-ratio 0.1", stiffness, out.wall_seconds, kTooLong);
+      return false;
+    }
     if (out.outcome == Outcome::kInterrupted) out_.reason = kInterrupted;
     const bool wrong = out.outcome == Outcome::kFailed || out.outcome == Outcome::kRunaway || out.outcome == Outcome::kEnergyOpen;
     if (wrong) out_.reason = fmt::format("the run with {:.0e} N/m failed: {}", stiffness, out.message);
@@ -384,6 +396,7 @@ class Procedure {
   Stiffening out_;
   Trajectory stiffest_;
   double length_ = 1;
+  double longest_run_ = 0;              // [s]
   std::set<std::string> as_it_is_;      // joints whose laws do not scale with stiffness
   std::map<std::string, double> mass_;  // effective, by joint and by "joint.angle" [kg], [kg*m^2]
   std::vector<CheckRedundancy> redundancies_;
