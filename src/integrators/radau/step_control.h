@@ -137,10 +137,11 @@ class StepControl {
 
   bool is_at_start(double after) const { return after < 2 * kEventAtStart * usual; }
   // Whether an event this long after the start of a step is crossed there. A contact may be ten thousand times as short as the flight before it: its end is
-  // crossed there only if forces stay constant until then.
+  // crossed there only if forces stay constant until then, or if steps have failed to reach it: a speed in the steep ramp of a held jump may be its last
+  // number before the ramp's end.
   template <class Method>
   bool is_crossed_at_start(Method& method, double after) const {
-    return is_at_start(after) && method.forces_stay_constant(after);
+    return is_at_start(after) && (stopped_short_ >= kFewShort || method.forces_stay_constant(after));
   }
 
   // Whether half of a step has more than half of its error.
