@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "integrators/law_crossings.h"
+#include "integrators/thresholds.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -23,7 +25,8 @@ class LawBorders {
   bool shorten(const State& end, double& h) {
     const double share = first_crossing(end);
     if (n_shortened_ == 0) longest_ = h;
-    if (share >= 1 - kBehind || share * h < kShortest * longest_ || n_shortened_ >= kMostShortened) return false;
+    const bool already_crossed = share * h < std::max(kShortest * longest_, kTimeResolved * kLastBits * std::abs(end.t));
+    if (share >= 1 - kBehind || already_crossed || n_shortened_ >= kMostShortened) return false;
     ++n_shortened_;
     h *= share + 0.5 * kBehind;
     return true;
@@ -54,6 +57,8 @@ class LawBorders {
   static constexpr int kMostShortened = 12;  // times that one step is shortened for borders, at most
   static constexpr double kBehind = 1e-3;    // fraction of a step that may lie beyond a border
   static constexpr double kShortest = 1e-7;  // fraction of the first attempt: a border crossed this early has been dealt with already
+
+  static constexpr double kTimeResolved = 16;  // last bits of the time: the same for a border crossed this early
 
   // The share of the step at which the first border of a law with states is crossed, by linear interpolation; 1: none is.
   double first_crossing(const State& end) {

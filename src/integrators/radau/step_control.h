@@ -38,7 +38,8 @@ class StepControl {
     behind_event = false;
     rounding_ = floor_h_ = floor_error_ = 0;
     at_floor_ = 0;
-    same_ = stopped_short_ = 0;
+    same_ = stopped_short_ = unreached_ = 0;
+    short_step_ = 0;
     same_function_ = -1;
     steps_at_event_ = 0;
     event_ = {};
@@ -73,6 +74,7 @@ class StepControl {
   static constexpr double kEventAtStart = 1e-5;   // fraction of the usual step: an event this close to a step's start is crossed there, if forces stay constant until then
   static constexpr int kSlow = 10;                // attempts at reaching an event, after which they are taken for a sequence that converges by a constant ratio: most arrive in three
   static constexpr int kFewShort = 3;             // steps in a row that end before an event without reaching it, before a Taylor step is tried: positions are rounded, and a shorter step gets no closer. 1 to 6 are equally good; 0 takes six times the steps at the corners of a table
+  static constexpr double kSameDistance = 0.01;    // relative difference of two steps up to an event for which the first has not got nearer to it
   static constexpr int kMostCrossed = 24;         // events crossed at the start of one step, at most
   static constexpr std::uint64_t kStepsBetween = 10;  // steps between two events of one function, at most, for them to count as consecutive. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
   static constexpr int kMostSame = 8;                 // consecutive events, after which further ones are crossed only if they matter
@@ -114,6 +116,8 @@ class StepControl {
   int at_floor_ = 0;       // steps in a row
   double rounding_ = 0;    // rounding error of accelerations, relative to the tolerance: no step resolves it
   int stopped_short_ = 0;                 // steps in a row that ended before an event, since the last one that was crossed
+  double short_step_ = 0;                 // the last step, if it led up to an event [s]
+  int unreached_ = 0;                     // such steps in a row that were equally long
   int same_ = 0, same_function_ = -1;     // consecutive events of one function
   std::uint64_t steps_at_event_ = 0;      // steps taken before the last of them
   double floor_h_ = 0, floor_error_ = 0;  // a step, and its error, which shorter steps have not halved
@@ -137,12 +141,14 @@ class StepControl {
 
   bool is_at_start(double after) const { return after < 2 * kEventAtStart * usual; }
   // Whether an event this long after the start of a step is crossed there. A contact may be ten thousand times as short as the flight before it: its end is
-  // crossed there only if forces stay constant until then, or if steps have failed to reach it: a speed in the steep ramp of a held jump may be its last
-  // number before the ramp's end.
+  // crossed there only if forces stay constant until then, or if steps of this length have got no nearer to it: in the steep ramp of a held jump a speed may
+  // be the last number before the ramp's end.
   template <class Method>
   bool is_crossed_at_start(Method& method, double after) const {
-    return is_at_start(after) && (stopped_short_ >= kFewShort || method.forces_stay_constant(after));
+    const bool out_of_reach = unreached_ >= kFewShort && is_same_distance(after, short_step_);
+    return is_at_start(after) && (out_of_reach || method.forces_stay_constant(after));
   }
+  static bool is_same_distance(double a, double b) { return std::abs(a - b) < kSameDistance * a; }
 
   // Whether half of a step has more than half of its error.
   bool is_floor(double h, double error) {
@@ -197,7 +203,8 @@ class StepControl {
     ++counters.events;
     count_same(event, counters);
     method.cross_event(distance, event);
-    stopped_short_ = 0;
+    stopped_short_ = unreached_ = 0;
+    short_step_ = 0;
     method.begin_at_end();
   }
 
@@ -214,6 +221,8 @@ class StepControl {
   void accept(double h, double factor, bool up_to_event) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
     stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
+    unreached_ = up_to_event && is_same_distance(h, short_step_) ? unreached_ + 1 : 0;
+    short_step_ = up_to_event ? h : 0;
     if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this shortened step
     else usual = next;
   }
