@@ -131,7 +131,6 @@ TEST(ClearanceRegimesSlow, ChaoticForcesArePromisedUpToTheHorizonAndStatisticsBe
     EXPECT_GT(joint.rms_after, joint.mean_after);
     EXPECT_GT(joint.mean_after, 0);
     EXPECT_NE(joint.rms_after, again.rms_after);
-    // The scatter is found from two passes: it may come out small by chance, but seldom twice.
     EXPECT_NEAR(joint.rms_after, again.rms_after, 3 * std::max(joint.rms_scatter, again.rms_scatter)) << joint.name;
     EXPECT_NEAR(joint.mean_after, again.mean_after, 3 * std::max(joint.mean_scatter, again.mean_scatter)) << joint.name;
   }

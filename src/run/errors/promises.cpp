@@ -9,13 +9,15 @@
 namespace pintle {
 namespace {
 
-// Statistics of a joint's force in the rows after `from` [s], by the trapezoidal rule in time.
+constexpr int kIntervals = 8;  // of the remainder of a run, whose means tell how far its own may be off
+
+// Statistics of a joint's force in the rows after `from` and up to `to` [s], by the trapezoidal rule in time.
 template <class S>
-LoadStatistics of_rows(const BasicForceTable<S>& forces, std::size_t joints, std::size_t j, double from) {
+LoadStatistics of_rows(const BasicForceTable<S>& forces, std::size_t joints, std::size_t j, double from, double to = std::numeric_limits<double>::infinity()) {
   LoadStatistics out;
   double span = 0;
   for (std::size_t i = 1; i < forces.t.size(); ++i) {
-    if (forces.t[i] <= from) continue;
+    if (forces.t[i] <= from || forces.t[i] > to) continue;
     const double last = linear_magnitude<S>(forces.world[(i - 1) * joints + j]), now = linear_magnitude<S>(forces.world[i * joints + j]), h = forces.t[i] - forces.t[i - 1];
     out.peak = std::max(out.peak, now);
     out.mean += 0.5 * h * (last + now);
@@ -26,6 +28,26 @@ LoadStatistics of_rows(const BasicForceTable<S>& forces, std::size_t joints, std
     out.mean /= span;
     out.rms = std::sqrt(out.rms / span);
   }
+  return out;
+}
+
+// Standard errors of mean and RMS after `from`, from their scatter over intervals of equal length.
+template <class S>
+LoadStatistics standard_errors(const BasicForceTable<S>& forces, std::size_t joints, std::size_t j, double from) {
+  const double length = (forces.t.back() - from) / kIntervals;
+  double mean = 0, mean_square = 0, square = 0, square_square = 0;
+  for (int i = 0; i < kIntervals; ++i) {
+    const LoadStatistics part = of_rows(forces, joints, j, from + i * length, from + (i + 1) * length);
+    const double part_square = part.rms * part.rms;
+    mean += part.mean / kIntervals;
+    mean_square += part.mean * part.mean / kIntervals;
+    square += part_square / kIntervals;
+    square_square += part_square * part_square / kIntervals;
+  }
+  const auto of_mean = [](double average, double average_square) { return std::sqrt(std::max(0.0, average_square - average * average) / (kIntervals - 1)); };
+  LoadStatistics out;
+  out.mean = of_mean(mean, mean_square);
+  out.rms = square > 0 ? of_mean(square, square_square) / (2 * std::sqrt(square)) : 0;
   return out;
 }
 
@@ -60,8 +82,9 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceRecord
     joint.rms_after = now.rms;
     joint.mean_after = now.mean;
     joint.peak_scatter = std::abs(now.peak - other.peak);
-    joint.rms_scatter = std::abs(now.rms - other.rms);
-    joint.mean_scatter = std::abs(now.mean - other.mean);
+    const LoadStatistics within_run = standard_errors(fine.forces(), joints, j, joint.horizon);
+    joint.rms_scatter = std::max(std::abs(now.rms - other.rms), within_run.rms);
+    joint.mean_scatter = std::max(std::abs(now.mean - other.mean), within_run.mean);
     if (earliest == nullptr || joint.horizon < earliest->horizon) earliest = &joint;
   }
   if (earliest != nullptr) out.growth.horizon = earliest->horizon;
