@@ -33,7 +33,7 @@ struct LoadSummary {
   double relative_error_estimate = 0;  ///< the larger of the two, each relative to the joint's peak, or to 1e-4 of the mechanism's largest if that is more [-]; without the couple of a pin with friction
   double horizon = 0;                  ///< last time up to which the force is promised [s]; the error estimates cover the rows up to it
   double peak_after = 0, rms_after = 0, mean_after = 0;  ///< where the motion continues beyond the horizon: statistics of the remainder [N]
-  double peak_scatter = 0, rms_scatter = 0, mean_scatter = 0;  ///< how far they differ between two motions that agree up to the horizon [N]
+  double peak_scatter = 0, rms_scatter = 0, mean_scatter = 0;  ///< how far they differ between two motions that agree up to the horizon; of RMS and mean at least their standard error [N]
   bool unique = true;                  ///< false: redundant ideal constraints leave its force undetermined; one of many solutions is given
 };
 
