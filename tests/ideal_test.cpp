@@ -268,6 +268,15 @@ TEST(Ideal, TurnsLargerThanTheMechanismAreClosed) {
   EXPECT_LT(run.counters.evaluations, 20000u);
 }
 
+// Ideal joints have no steps that slide along a jump: the governor at its speed is named, and where it can be held.
+TEST(Ideal, AGovernorAtItsSpeedIsNamed) {
+  Model model = reference::test_model("governed_pump");
+  model.simulate.equations = Equations::kIdeal;
+  const Trajectory run = simulate(model);
+  EXPECT_EQ(run.outcome, Outcome::kFailed);
+  EXPECT_NE(run.message.find("of motor gov (if(rate < 25 rad/s, 12 N*m, 0)) is crossed again and again. Only equations = \"newtonian\""), std::string::npos) << run.message;
+}
+
 // Peak and mean of a force that balances a load without any motion do not depend on the steps of the motion: the pin of an arm that a motor holds.
 TEST(Ideal, PeaksFollowLoadsWithinAStep) {
   struct Case {

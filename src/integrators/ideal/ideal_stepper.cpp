@@ -18,6 +18,7 @@ using namespace dormand_prince;
 
 constexpr double kLongest = 4;           // upper limit, as a multiple of the last step away from singular positions: near them the error that counts may be almost zero
 constexpr double kCrossing = 0.1;        // fraction of the tolerance times the usual step: a step this short is taken across a jump of a force
+constexpr double kSoonAfter = 1e-6;      // fraction of the run: a step that fails so soon after a jump fails because of it
 constexpr double kNearJump = 1e-4;       // fraction of the usual step: rejected steps this short are checked for jumps
 constexpr double kLeastCrossing = 1e-8;  // lower limit on such steps, as a fraction of the usual step: shorter ones are lost in the rounding of velocities over the step
 
@@ -98,13 +99,14 @@ bool IdealStepper::step(double t_end) {
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
-      if (jump_ahead) failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" can hold a motor or force at the point where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump_)]));
+      if (const int jump = jump_ahead || begin_.t - jump_t_ < kSoonAfter * std::abs(t_end) ? jump_ : crossed_jump(); jump >= 0)
+        failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" can hold a motor or force at the point where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump)]));
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = step_ratio(e);
     if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e))
-      if (const int crossed = crossed_jump(); crossed >= 0) jump_ = crossed, jump_ahead = true;
+      if (const int crossed = crossed_jump(); crossed >= 0) jump_ = crossed, jump_t_ = begin_.t, jump_ahead = true;
     // Across the jump, or up to where only roundoff is left of the distance to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that a step over the singular position may be

@@ -84,7 +84,8 @@ class IdealStepper final : public Stepper {
   LoadScale scale_;
   Counters counters_;
   std::string failure_;
-  int jump_ = -1;  // switching function that a step was shortened for last
+  int jump_ = -1;            // the switching function for which a step was last shortened, ...
+  double jump_t_ = -1;       // ... and when [s]
   std::vector<std::string> remarks_;
   double most_independent_ = 0, independence_ = 0;  // the largest met; that at the end of the step
   double least_independence_ = 0;                   // in the stages
