@@ -99,20 +99,20 @@ bool IdealStepper::step(double t_end) {
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
-      if (const int jump = jump_ahead || begin_.t - jump_t_ < kSoonAfter * std::abs(t_end) ? jump_ : crossed_jump(); jump >= 0)
-        failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" can hold a motor or force at the point where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump)]));
+      if (jump_ >= 0 && begin_.t - jump_t_ < kSoonAfter * std::abs(t_end))
+        failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" can hold a motor or force at the point where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump_)]));
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = step_ratio(e);
-    if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e))
-      if (const int crossed = crossed_jump(); crossed >= 0) jump_ = crossed, jump_t_ = begin_.t, jump_ahead = true;
+    if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e)) jump_ahead = finds_jump() || jump_ahead;
     // Across the jump, or up to where only roundoff is left of the distance to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that a step over the singular position may be
     const bool good = e <= 1 || crossing || shortest;
     if (const double seen = good ? share_of_step(h, t_end) : 1; seen < 1) {
       ++counters_.rejected;
+      finds_jump();
       wanted = h * seen;
       continue;
     }
@@ -144,10 +144,10 @@ double IdealStepper::share_of_step(double h, double t_end) {
   return bends_.share_of_step(begin_.t, h, t_end, begin_m_, stage_m_);
 }
 
-// The switching function that the step crosses, or at whose zero it starts; -1: none. The embedded error of a jump does not fall with the step; its effect on velocities does.
+// Whether the step crosses a switching function, or starts at its zero. The embedded error of a jump does not fall with the step; its effect on velocities does.
 // A step may start at a jump, as that of t = 0 does where a motor starts.
-int IdealStepper::crossed_jump() const {
-  if (!system_.has_branches()) return -1;
+bool IdealStepper::finds_jump() {
+  if (!system_.has_branches()) return false;
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
@@ -157,8 +157,12 @@ int IdealStepper::crossed_jump() const {
   };
   const std::vector<double> from = side(begin_), to = side(stage_);
   for (std::size_t f = 0; f < from.size(); ++f)
-    if (from[f] == 0 || !same_sides(std::span(&from[f], 1), std::span(&to[f], 1))) return static_cast<int>(f);
-  return -1;
+    if (from[f] == 0 || !same_sides(std::span(&from[f], 1), std::span(&to[f], 1))) {
+      jump_ = static_cast<int>(f);
+      jump_t_ = begin_.t;
+      return true;
+    }
+  return false;
 }
 
 // Puts the stage on the branch of the motion, where it has the same component along the branch's tangent at the start of the step. The nearest
