@@ -76,18 +76,6 @@ PINTLE_LANES void subtract_product(Block<T, N>& C, const Block<T, N>& A, const B
     }
 }
 
-/// A B.
-template <class T, int N>
-PINTLE_LANES Block<T, N> product(const Block<T, N>& A, const Block<T, N>& B) {
-  Block<T, N> C;
-  for (int i = 0; i < N; ++i)
-    for (int k = 0; k < N; ++k) {
-      const T aik = A(i, k);
-      for (int j = 0; j < N; ++j) C(i, j) += aik * B(k, j);
-    }
-  return C;
-}
-
 /// C -= A' B.
 template <class T, int N>
 PINTLE_LANES void subtract_transposed_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
@@ -128,17 +116,6 @@ PINTLE_LANES void subtract_transposed_product(V& y, const Block<T, N>& A, const 
   y = sum;
 }
 
-/// A x.
-template <class V, class T, int N>
-PINTLE_LANES V product(const Block<T, N>& A, const V& x) {
-  V y;
-  for (int i = 0; i < N; ++i) {
-    y[i] = A(i, 0) * x[0];
-    for (int j = 1; j < N; ++j) y[i] += A(i, j) * x[j];
-  }
-  return y;
-}
-
 /// The row swaps of a pivoted factorisation, in order: row c with row swaps[c].
 template <int N>
 struct RowSwaps {
@@ -156,7 +133,7 @@ PINTLE_LANES void swap_rows(const RowSwaps<N>& swaps, Swap&& swap) {
 
 /// Strictly below the diagonal: a unit lower triangle becomes its inverse.
 template <class T, int N>
-PINTLE_LANES void invert_unit_lower(Block<T, N>& m) {
+PINTLE_LANES void invert_unit_lower_triangle(Block<T, N>& m) {
   for (int i = 1; i < N; ++i)
     for (int j = 0; j < i; ++j) {
       T sum = m(i, j);
@@ -187,7 +164,7 @@ PINTLE_LANES bool factorize_pivoted(Block<T, N>& m, RowSwaps<N>& swaps) {
     for (int j = c + 1; j < N; ++j) m(c, j) = inverse * m(c, j);
     m(c, c) = inverse;
   }
-  invert_unit_lower(m);
+  invert_unit_lower_triangle(m);
   for (int j = N - 1; j > 0; --j)
     for (int i = j - 1; i >= 0; --i) {
       T sum = m(i, j);
@@ -212,7 +189,7 @@ PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {
     for (int i = c + 1; i < N; ++i) m(i, c) = lower[i];
     m(c, c) = inverse;
   }
-  invert_unit_lower(m);
+  invert_unit_lower_triangle(m);
   return is_finite(pivots);
 }
 
@@ -224,9 +201,16 @@ PINTLE_LANES void apply_lower(const Block<T, N>& m, Block<T, N>& B) {
       for (int c = 0; c < N; ++c) B(i, c) += m(i, j) * B(j, c);
 }
 
+/// x becomes M x.
+template <class V, class T, int N>
+PINTLE_LANES void apply_lower(const Block<T, N>& m, V& x) {
+  for (int i = N - 1; i > 0; --i)
+    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
+}
+
 /// B becomes B U^-1 D^-1, of a block factorised with pivoting.
 template <class T, int N>
-PINTLE_LANES void apply_upper_from_right(const Block<T, N>& m, Block<T, N>& B) {
+PINTLE_LANES void solve_upper_from_right(const Block<T, N>& m, Block<T, N>& B) {
   for (int j = N - 1; j >= 0; --j)
     for (int r = 0; r < N; ++r) {
       T sum = B(r, j);
@@ -237,15 +221,14 @@ PINTLE_LANES void apply_upper_from_right(const Block<T, N>& m, Block<T, N>& B) {
 
 /// x becomes L^-1 P x.
 template <class V, class T, int N>
-PINTLE_LANES void apply_lower_pivoted(const Block<T, N>& m, const RowSwaps<N>& swaps, V& x) {
+PINTLE_LANES void solve_lower(const Block<T, N>& m, const RowSwaps<N>& swaps, V& x) {
   swap_rows<kPivots<T>>(swaps, [&x](int a, int b) { std::swap(x[a], x[b]); });
-  for (int i = N - 1; i > 0; --i)
-    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
+  apply_lower(m, x);
 }
 
 /// B becomes L^-1 P B.
 template <class T, int N>
-PINTLE_LANES void apply_lower_pivoted(const Block<T, N>& m, const RowSwaps<N>& swaps, Block<T, N>& B) {
+PINTLE_LANES void solve_lower(const Block<T, N>& m, const RowSwaps<N>& swaps, Block<T, N>& B) {
   swap_rows<kPivots<T>>(swaps, [&B](int a, int b) {
     for (int c = 0; c < N; ++c) std::swap(B(a, c), B(b, c));
   });
@@ -254,7 +237,7 @@ PINTLE_LANES void apply_lower_pivoted(const Block<T, N>& m, const RowSwaps<N>& s
 
 /// x becomes U^-1 D^-1 x.
 template <class V, class T, int N>
-PINTLE_LANES void apply_upper(const Block<T, N>& m, V& x) {
+PINTLE_LANES void solve_upper(const Block<T, N>& m, V& x) {
   for (int i = 0; i < N; ++i) x[i] = m(i, i) * x[i];
   for (int i = 0; i < N - 1; ++i)
     for (int j = i + 1; j < N; ++j) x[i] += m(i, j) * x[j];
@@ -280,8 +263,7 @@ PINTLE_LANES Block<T, N> over_pivots(const Block<T, N>& m, const Block<T, N>& B)
 /// x becomes M' D^-1 M x: solves with a factorised m.
 template <class V, class T, int N>
 PINTLE_LANES void apply_inverse(const Block<T, N>& m, V& x) {
-  for (int i = N - 1; i > 0; --i)
-    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
+  apply_lower(m, x);
   for (int i = 0; i < N; ++i) x[i] = m(i, i) * x[i];
   for (int j = 0; j < N - 1; ++j)
     for (int i = j + 1; i < N; ++i) x[j] += m(i, j) * x[i];

@@ -20,7 +20,7 @@ class BlockLu {
   BlockLu() = default;
   explicit BlockLu(const BlockPattern& pattern, Symmetry symmetry = Symmetry::kNone)
       : pattern_(&pattern), symmetric_(symmetry == Symmetry::kSymmetric), diagonal_(pattern.n()), upper_(pattern.n_off_diagonal()),
-        lower_(symmetric_ ? 0 : pattern.n_off_diagonal()), row_(symmetric_ ? pattern.longest_row() : 0), swaps_(symmetric_ ? 0 : pattern.n()) {}
+        lower_(symmetric_ ? 0 : pattern.n_off_diagonal()), row_(symmetric_ ? pattern.longest_row() : 0), row_swaps_(symmetric_ ? 0 : pattern.n()) {}
 
   bool symmetric() const { return symmetric_; }
   /// Sets the matrix to a diagonal one: entry(i, k) at place k of row i.
@@ -128,12 +128,12 @@ class BlockLu {
   // Pivot blocks Z are P' L D U. What stands beside them becomes that of a triangular factorisation of the whole matrix: L^-1 P above the diagonal, U^-1 D^-1 below.
   PINTLE_LANES bool eliminate_both(int k) {
     const BlockPattern& p = *pattern_;
-    if (!factorize_pivoted(diagonal_[k], swaps_[k])) return false;
+    if (!factorize_pivoted(diagonal_[k], row_swaps_[k])) return false;
     const int begin = p.first(k), end = p.first(k + 1);
     const int* target = p.updates(k);
-    for (int a = begin; a < end; ++a) apply_lower_pivoted(diagonal_[k], swaps_[k], upper_[a]);
+    for (int a = begin; a < end; ++a) solve_lower(diagonal_[k], row_swaps_[k], upper_[a]);
     for (int a = begin; a < end; ++a) {
-      apply_upper_from_right(diagonal_[k], lower_[a]);
+      solve_upper_from_right(diagonal_[k], lower_[a]);
       for (int b = begin; b < end; ++b, ++target) {
         Block<T, N>& block = *target == 0  ? diagonal_[p.column(a)]
                              : *target > 0 ? upper_[*target - 1]
@@ -185,7 +185,7 @@ class BlockLu {
     const int i = p.row_at(k), end = p.first(k + 1);
     auto& here = x[i];
     first(i, here);
-    if constexpr (!kSymmetric) apply_lower_pivoted(diagonal_[k], swaps_[k], here);
+    if constexpr (!kSymmetric) solve_lower(diagonal_[k], row_swaps_[k], here);
     for (int a = p.first(k); a < end; ++a) {
       auto& there = x[p.row_at(p.column(a))];
       if constexpr (kSymmetric) subtract_transposed_product(there, upper_[a], here);
@@ -203,7 +203,7 @@ class BlockLu {
       const int i = p.row_at(k), end = p.first(k + 1);
       auto& here = x[i];
       for (int a = p.first(k); a < end; ++a) subtract_product(here, upper[a], x[p.row_at(p.column(a))]);
-      if constexpr (!kSymmetric) apply_upper(diagonal_[k], here);
+      if constexpr (!kSymmetric) solve_upper(diagonal_[k], here);
       last(i, std::as_const(here));
     }
   }
@@ -212,7 +212,7 @@ class BlockLu {
   bool symmetric_ = false;
   std::vector<Block<T, N>> diagonal_, upper_, lower_;
   std::vector<Block<T, N>> row_;  // of the pivot
-  std::vector<RowSwaps<N>> swaps_;
+  std::vector<RowSwaps<N>> row_swaps_;
 };
 
 }  // namespace pintle

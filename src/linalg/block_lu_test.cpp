@@ -257,8 +257,8 @@ TEST(Block, FactorisationPivotsWithinTheBlock) {
   x[0] = 2;
   x[1] = 8;
   x[2] = 24;
-  apply_lower_pivoted(m, swaps, x);
-  apply_upper(m, x);
+  solve_lower(m, swaps, x);
+  solve_upper(m, x);
   EXPECT_EQ(x[0], 3);
   EXPECT_EQ(x[1], 1);
   EXPECT_EQ(x[2], 2);

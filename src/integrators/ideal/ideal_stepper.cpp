@@ -18,7 +18,6 @@ using namespace dormand_prince;
 
 constexpr double kLongest = 4;           // upper limit, as a multiple of the last step away from singular positions: near them the error that counts may be almost zero
 constexpr double kCrossing = 0.1;        // fraction of the tolerance times the usual step: a step this short is taken across a jump of a force
-constexpr double kSoonAfter = 1e-6;      // fraction of the run: a step that fails so soon after a jump fails because of it
 constexpr double kNearJump = 1e-4;       // fraction of the usual step: rejected steps this short are checked for jumps
 constexpr double kLeastCrossing = 1e-8;  // lower limit on such steps, as a fraction of the usual step: shorter ones are lost in the rounding of velocities over the step
 
@@ -99,20 +98,20 @@ bool IdealStepper::step(double t_end) {
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
-      if (jump_ >= 0 && begin_.t - jump_t_ < kSoonAfter * std::abs(t_end))
+      if (jump_ >= 0 && begin_.t - jump_t_ <= smooth_h_)
         failure_ += fmt::format("; {} is crossed again and again. Only equations = \"newtonian\" can hold a motor or force at the point where it switches", system_.name(system_.switching_functions()[static_cast<std::size_t>(jump_)]));
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = step_ratio(e);
-    if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e)) jump_ahead = finds_jump() || jump_ahead;
+    if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e)) jump_ahead = find_jump() || jump_ahead;
     // Across the jump, or up to where only roundoff is left of the distance to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that a step over the singular position may be
     const bool good = e <= 1 || crossing || shortest;
     if (const double seen = good ? share_of_step(h, t_end) : 1; seen < 1) {
       ++counters_.rejected;
-      finds_jump();
+      find_jump();
       wanted = h * seen;
       continue;
     }
@@ -146,7 +145,7 @@ double IdealStepper::share_of_step(double h, double t_end) {
 
 // Whether the step crosses a switching function, or starts at its zero. The embedded error of a jump does not fall with the step; its effect on velocities does.
 // A step may start at a jump, as that of t = 0 does where a motor starts.
-bool IdealStepper::finds_jump() {
+bool IdealStepper::find_jump() {
   if (!system_.has_branches()) return false;
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;

@@ -53,7 +53,7 @@ class IdealStepper final : public Stepper {
   bool finish(double t, double h);
   double error(double h);
   double share_of_step(double h, double t_end);
-  bool finds_jump();
+  bool find_jump();
   void grow_scale();
   void foresee_loads(double h);
   void raise_above_rounding();

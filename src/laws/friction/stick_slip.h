@@ -91,14 +91,14 @@ struct StickSlip {
     }
     if (!rebounds(state)) state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
     state[1] = 0;
-    if (breaks(v, N, state)) state[1] = v > 0 ? 1 : -1;  // the normal load vanished before they stuck
+    if (breaks_away(v, N, state)) state[1] = v > 0 ? 1 : -1;  // the normal load vanished before they stuck
   }
 
  private:
   // Rounding of a friction that rest() has set to zero [N]: surfaces without a normal load stick until something pulls.
   double friction_rounding_at_rest() const { return std::numeric_limits<double>::min() + 4 * std::numeric_limits<double>::epsilon() * kStill * damping; }
   // Whether the friction exceeds what they carry by more than rounding.
-  bool breaks(double v, double N, const double* state) const {
+  bool breaks_away(double v, double N, const double* state) const {
     const double carried = static_coefficient * N;
     return std::abs(held(v, state)) > carried + 4 * std::numeric_limits<double>::epsilon() * carried + friction_rounding_at_rest();
   }
