@@ -13,8 +13,8 @@ struct PlanarBodyLanes {
   L q[3], v[3], a[3];
   L c, s;         // cosine and sine of the angle
 
-  struct View { const L &x, &y, &c, &s, &vx, &vy, &w; };
-  View view() const { return {q[0], q[1], c, s, v[0], v[1], v[2]}; }
+  struct View { const L &x, &y, &c, &s, &vx, &vy, &w, &angle; };
+  View view() const { return {q[0], q[1], c, s, v[0], v[1], v[2], q[2]}; }
   S::Motion motion(int i) const { return {{q[0][i], q[1][i]}, q[2][i], c[i], s[i], {v[0][i], v[1][i]}, v[2][i]}; }
   S::Coordinates coordinates(int i, const S::Coordinates&) const { return {q[0][i], q[1][i], q[2][i]}; }
 
@@ -34,6 +34,11 @@ struct PlanarBodyLanes {
   PINTLE_LANES void check() { sine_and_cosine(q[2], s, c); }
   /// To be called after velocities have been changed.
   PINTLE_LANES void renew_rates() {}
+  /// Moves the body on by increments.
+  PINTLE_LANES void move(const L* dq) {
+    for (int k = 0; k < 3; ++k) q[k] += dq[k];
+    check();
+  }
 };
 
 }  // namespace pintle

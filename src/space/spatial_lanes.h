@@ -72,6 +72,13 @@ struct SpatialBodyLanes {
     turn = {dq[3], dq[4], dq[5]};
     orient(q0.r);
   }
+  /// Moves the body on by increments, without counting them in `turn`.
+  PINTLE_LANES void move(const L* dq) {
+    for (int k = 0; k < 3; ++k) q[k] += dq[k];
+    const Vector3<L> on{dq[3], dq[4], dq[5]};
+    R = R * rotation::matrix(on, rotation::functions(rotation::square_of(on)));
+    renew_rates();
+  }
   /// R and w from `turn` and the angular velocity.
   PINTLE_LANES void orient(const Eigen::Quaterniond& r0) {
     const Matrix3<double> start = components(Eigen::Matrix3d(r0.toRotationMatrix()));

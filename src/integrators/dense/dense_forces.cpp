@@ -1,14 +1,20 @@
 #include "integrators/dense/dense_forces.h"
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "base/cubic_hermite.h"
 #include "integrators/absolute/pose_blocks.h"
+#include "integrators/dense/gap_at_nodes.h"
 #include "integrators/radau/stage_lanes.h"
+#include "integrators/thresholds.h"
 #include "simd/processor_registers.h"
 
 namespace pintle {
 namespace {
+
+constexpr double kVisible = 1e-9;  // fraction of the largest force: gaps of redundant joints that follow the bodies count if they change one by more
 
 // One instant per lane.
 template <class S>
@@ -25,6 +31,7 @@ class LaneForces : public BasicDenseForces<S> {
       const BasicJointData<S>& data = system.joints[j];
       joints_[j].map.functions = count_functions(data.displacement);
       joints_[j].linear = data.law.as_linear();
+      joints_[j].pose = std::get_if<BasicSelection<S>>(&data.displacement);
       if (data.at.a != kGround && data.at.b != kGround) joints_[j].slot = system.pattern().slot(data.at.a, data.at.b);
     }
   }
@@ -34,10 +41,12 @@ class LaneForces : public BasicDenseForces<S> {
     const double mu = nodes.table->real_eigenvalue / (end.t - begin.t);
     follow(begin, end, nodes);
     factorize(mu);
-    move_onto_rates();
+    const bool follows_geometry = gaps_follow_geometry(begin, end, nodes);
+    if (follows_geometry) add_forces_of_geometry(begin, end, nodes);
+    move_onto_rates(&Joint::rate);
     if (!begin.sliding.empty()) find_balanced_loads();
     else if (loads_) find_loads(begin);
-    balance(mu);
+    balance(mu, follows_geometry);
     sampled.front() = begin.force;
     sampled.back() = nodes.force[nodes.table->n];  // before an event at the end is crossed
     write(sampled);
@@ -49,10 +58,13 @@ class LaneForces : public BasicDenseForces<S> {
   using Row = BlockVec<L, S::kDof>;
   struct Joint {
     L gap[S::kDof], rate[S::kDof], accel[S::kDof], force[S::kDof];  // on the curves
+    L gap_of_force[S::kDof], rate_of_force[S::kDof];  // that `force` belongs to
+    L off[S::kDof], rate_off[S::kDof];            // by which the bodies miss them
     L change[S::kDof];                            // of the force, so that it balances
     L weight[S::kDof * S::kDof];                            // K + mu C; its diagonal for a spring and damper in each component
     typename S::template GapMap<L> map;
     const typename BasicLaw<S>::Linear* linear = nullptr;
+    const BasicSelection<S>* pose = nullptr;
     BlockPattern::Slot slot{};
   };
 
@@ -64,14 +76,14 @@ class LaneForces : public BasicDenseForces<S> {
     const ForceSamples& samples = ForceSamples::of(*nodes.table);
     const int n = nodes.table->n + 1;
     const double h = end.t - begin.t;
-    L x, hermite, value[RadauTable::kMaxNodes], once[RadauTable::kMaxNodes], twice[RadauTable::kMaxNodes];
+    L x, hermite, once[RadauTable::kMaxNodes], twice[RadauTable::kMaxNodes];
     for (int s = 0; s < kN; ++s) {
       const double at = samples.x[s + 1];
       x.set(s, at);
       hermite.set(s, cubic_blend(at));
       t_.set(s, begin.t + at * h);
       for (int node = 0; node < n; ++node) {
-        value[node].set(s, samples.value[s + 1][node]);
+        at_node_[node].set(s, samples.value[s + 1][node]);
         once[node].set(s, h * samples.once[s + 1][node]);
         twice[node].set(s, h * h * samples.twice[s + 1][node]);
       }
@@ -98,7 +110,7 @@ class LaneForces : public BasicDenseForces<S> {
       auto& body = bodies_[b];
       for (int k = 0; k < S::kDof; ++k) {
         body.v[k] = rate(nodes.a, begin.v, end.v, b, k);
-        if (!begin.sliding.empty()) body.a[k] = combined(value, nodes.a, b, k);
+        if (!begin.sliding.empty()) body.a[k] = combined(at_node_, nodes.a, b, k);
       }
       if constexpr (S::kCurved) {
         L dq[S::kDof];
@@ -112,15 +124,15 @@ class LaneForces : public BasicDenseForces<S> {
     for (int s = 0; s < kN && system_.n_law_states() > 0; ++s) {
       law_state_[s].assign(begin.law_state.size(), 0.0);
       for (int node = 0; node < n; ++node)
-        for (std::size_t z = 0; z < law_state_[s].size(); ++z) law_state_[s][z] += value[node][s] * nodes.law_state[node][z];
+        for (std::size_t z = 0; z < law_state_[s].size(); ++z) law_state_[s][z] += at_node_[node][s] * nodes.law_state[node][z];
     }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       for (int k = 0; k < S::kDof; ++k) {
         joint.gap[k] = place(nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, j, k);
         joint.rate[k] = rate(nodes.gap_accel, begin.gap_rate, end.gap_rate, j, k);
-        joint.accel[k] = combined(value, nodes.gap_accel, j, k);
-        joint.force[k] = combined(value, nodes.force, j, k);
+        joint.accel[k] = combined(at_node_, nodes.gap_accel, j, k);
+        joint.force[k] = combined(at_node_, nodes.force, j, k);
       }
     }
   }
@@ -235,15 +247,123 @@ class LaneForces : public BasicDenseForces<S> {
     pull_.back() = zero();
   }
 
-  void move_onto_rates() {
-    pull(&Joint::rate);
+  // Changes the bodies' velocities so that the gaps' rates change by `change`.
+  template <class Gap>
+  void move_onto_rates(Gap change) {
+    pull(change);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) bodies_[b].v[k] += pull_[b][k];
     for (auto& body : bodies_) body.renew_rates();
   }
 
+  // Whether at the end of the step gaps were taken from the bodies, Eq. (4.3), with a visible change of a force.
+  bool gaps_follow_geometry(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) const {
+    double largest = 0;
+    for (const auto& f : end.force) largest = std::max(largest, f.cwiseAbs().maxCoeff());
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      for (int k = 0; k < S::kDof && joints_[j].pose; ++k) {
+        const L& w = joints_[j].linear ? joints_[j].weight[k] : joints_[j].weight[(S::kDof + 1) * k];
+        if (std::abs(w[kN - 1] * (end.gap[j][k] - GapAtNodes::of(begin, end, nodes, j, k).integrated)) > kVisible * largest) return true;
+      }
+    return false;
+  }
+
+  // Where the bodies of a joint of poses are: its gap, with turns counted from the gap of its force, and its rate. In a driven component those of the force.
+  void read_geometry(std::size_t j, L (&gap)[S::kDof], L (&rate)[S::kDof]) const {
+    const BasicJointData<S>& data = system_.joints[j];
+    const Joint& joint = joints_[j];
+    const auto A = bodies_[body(data.at.a)].view(), B = bodies_[body(data.at.b)].view();
+    const auto pose = S::template PoseGeometry<L>::between(A, S::attachment(data.at.F), B, S::attachment(data.at.M));
+    if constexpr (S::kCurved) {
+      pose.gaps(A, data.at.F, B, data.at.M, gap);
+    } else {
+      struct Marker { L angle; };
+      pose.gaps(A, Marker{L::all(data.at.F.angle)}, B, Marker{L::all(data.at.M.angle)}, gap);
+    }
+    pose.rates(A, B, rate);
+    for (int k = 0; k < S::kDof; ++k) gap[k] -= L::all(joint.pose->offset[k]);
+    if constexpr (S::kCurved)
+      for (int s = 0; s < kN; ++s) {
+        typename S::Vec z;
+        for (int k = 0; k < S::kDof; ++k) z[k] = gap[k][s];
+        S::count_turns(lane(joint.gap_of_force, s), z);
+        gap[S::kTurn].set(s, z[S::kTurn]);
+      }
+    if (data.driven < 0) return;
+    gap[data.driven] = joint.gap_of_force[data.driven];
+    rate[data.driven] = joint.rate_of_force[data.driven];
+  }
+  static typename S::Vec lane(const L (&x)[S::kDof], int s) {
+    typename S::Vec y;
+    for (int k = 0; k < S::kDof; ++k) y[k] = x[k][s];
+    return y;
+  }
+
+  // Gaps that no motion can close, those of redundant joints, are as wrong as the stages' positions, and their forces by this times the stiffness. The
+  // bodies, moved onto the gaps that the forces belong to by Eq. (4.2), leave the right ones.
+  void add_forces_of_geometry(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
+    find_gaps_of_forces(begin, end, nodes);
+    on_curves_ = bodies_;
+    find_misfits();
+    pull(&Joint::off);
+    for (std::size_t b = 0; b < n_bodies(); ++b) bodies_[b].move(&pull_[b][0]);
+    find_misfits();
+    pull(&Joint::off);
+    for (std::size_t b = 0; b < n_bodies(); ++b) bodies_[b].move(&pull_[b][0]);
+    move_onto_rates(&Joint::rate_off);
+    const double rounding = kLastBits * largest_coordinate(end.q);
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      if (joints_[j].pose) add_force_of_geometry(j, rounding);
+    bodies_ = on_curves_;
+  }
+
+  // By how much the bodies miss the gaps and the rates that the forces belong to.
+  void find_misfits() {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      Joint& joint = joints_[j];
+      L gap[S::kDof], rate[S::kDof];
+      if (joint.pose) read_geometry(j, gap, rate);
+      for (int k = 0; k < S::kDof; ++k) {
+        joint.off[k] = joint.pose ? joint.gap_of_force[k] - gap[k] : L::all(0);
+        joint.rate_off[k] = joint.pose ? joint.rate_of_force[k] - rate[k] : L::all(0);
+      }
+    }
+  }
+
+  // Interpolated between the nodes as the forces are.
+  void find_gaps_of_forces(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      for (int k = 0; k < S::kDof; ++k) {
+        const auto at = GapAtNodes::of(begin, end, nodes, j, k);
+        L &gap = joints_[j].gap_of_force[k], &rate = joints_[j].rate_of_force[k];
+        gap = rate = L::all(0);
+        for (int node = 0; node <= nodes.table->n; ++node) {
+          gap += at.gap[node] * at_node_[node];
+          rate += at.rate[node] * at_node_[node];
+        }
+      }
+  }
+
+  // Adds what the law gives for the difference between the bodies' gap and the one that the force belongs to.
+  void add_force_of_geometry(std::size_t j, double rounding) {
+    const BasicJointData<S>& data = system_.joints[j];
+    Joint& joint = joints_[j];
+    L gap[S::kDof], rate[S::kDof];
+    read_geometry(j, gap, rate);
+    for (int k = 0; k < S::kDof; ++k) gap[k] = where_larger(sizes(gap[k] - joint.gap_of_force[k]), L::all(rounding), gap[k], joint.gap_of_force[k]);
+    if (joint.linear) {
+      for (int k = 0; k < S::kDof; ++k) joint.force[k] -= joint.linear->k[k] * (gap[k] - joint.gap_of_force[k]) + joint.linear->c[k] * (rate[k] - joint.rate_of_force[k]);
+      return;
+    }
+    for (int s = 0; s < kN; ++s) {
+      const double* states = law_state_[s].data() + data.first_state;
+      const typename S::Vec change = data.law.force({t_[s], lane(gap, s), lane(rate, s), states}) - data.law.force({t_[s], lane(joint.gap_of_force, s), lane(joint.rate_of_force, s), states});
+      for (int k = 0; k < S::kDof; ++k) joint.force[k].set(s, joint.force[k][s] + change[k]);
+    }
+  }
+
   // theory/time Eq. (4.5).
-  void balance(double mu) {
+  void balance(double mu, bool follows_geometry) {
     pull_ = loads_on_;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const BasicPlacement<S>& at = system_.joints[j].at;
@@ -260,6 +380,19 @@ class LaneForces : public BasicDenseForces<S> {
       for (int k = 0; k < S::kDof; ++k) joint.accel[k] -= bias[k] + e[k];
     }
     pull(&Joint::accel);
+    if (follows_geometry) {  // changes alone that motions ask for, Eq. (4.4)
+      for (std::size_t b = 0; b < n_bodies(); ++b)
+        for (int k = 0; k < S::kDof; ++k) pull_[b][k] = system_.bodies[b].mass[k] * pull_[b][k];
+      lu_.solve(pull_);
+      pull_.back() = zero();
+      for (std::size_t j = 0; j < joints_.size(); ++j) {
+        const BasicPlacement<S>& at = system_.joints[j].at;
+        L e[S::kDof];
+        joints_[j].map.gather(&pull_[body(at.a)][0], &pull_[body(at.b)][0], e);
+        weigh(joints_[j], e, joints_[j].change);
+      }
+      return;
+    }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const BasicPlacement<S>& at = system_.joints[j].at;
@@ -308,7 +441,9 @@ class LaneForces : public BasicDenseForces<S> {
   const BasicSystem<S>& system_;
   const bool loads_;
   L t_;
+  L at_node_[RadauTable::kMaxNodes];  // weights of the nodes in the curves
   std::vector<typename S::template BodyLanes<kN>> bodies_;  // and the ground
+  std::vector<typename S::template BodyLanes<kN>> on_curves_;  // the same, while they are moved
   std::vector<Joint> joints_;
   BlockLu<L, S::kDof> lu_;
   std::vector<Row> pull_, loads_on_; // gravity and loads on the bodies, and the ground's row
