@@ -1,8 +1,8 @@
 #include "integrators/radau/radau_table.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
-#include <vector>
 
 #include "linalg/lagrange_weights.h"
 
@@ -40,49 +40,6 @@ RadauTable::Vec radau_nodes(int n) {
   return c;
 }
 
-using Complex = std::complex<double>;
-using Polynomial = std::vector<double>;  // coefficients of 1, x, x^2 ..
-
-Polynomial polynomial_with_zeros(const RadauTable::Vec& x) {
-  Polynomial p{1};
-  for (const double zero : x) {
-    p.insert(p.begin(), 0.0);
-    for (std::size_t k = 0; k + 1 < p.size(); ++k) p[k] -= zero * p[k + 1];
-  }
-  return p;
-}
-Polynomial derived(const Polynomial& p) {
-  Polynomial d;
-  for (std::size_t k = 1; k < p.size(); ++k) d.push_back(static_cast<double>(k) * p[k]);
-  return d;
-}
-template <class Coefficient, class Number>
-Number value(const std::vector<Coefficient>& p, Number x) {
-  Number sum = 0;
-  for (std::size_t k = p.size(); k-- > 0;) sum = sum * x + p[k];
-  return sum;
-}
-// p (x - zero) / (at - zero)
-std::vector<Complex> times_zero_at(std::vector<Complex> p, Complex zero, Complex at) {
-  p.insert(p.begin(), 0.0);
-  for (std::size_t k = 0; k + 1 < p.size(); ++k) p[k] -= zero * p[k + 1];
-  for (Complex& coefficient : p) coefficient /= at - zero;
-  return p;
-}
-// All zeros at once, by the method of Durand and Kerner.
-std::vector<Complex> zeros(const std::vector<Complex>& p) {
-  std::vector<Complex> x;
-  for (std::size_t k = 1; k < p.size(); ++k) x.push_back(10.0 * std::pow(Complex(0.4, 0.9), k));
-  for (int pass = 0; pass < 200; ++pass)
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      Complex others = p.back();
-      for (std::size_t j = 0; j < x.size(); ++j)
-        if (j != i) others *= x[i] - x[j];
-      x[i] -= value(p, x[i]) / others;
-    }
-  return x;
-}
-
 }  // namespace
 
 RadauTable::RadauTable(int stages) : n(stages), pairs((stages - 1) / 2) {
@@ -106,48 +63,27 @@ RadauTable::RadauTable(int stages) : n(stages), pairs((stages - 1) / 2) {
       at(i, k) = std::pow(nodes[i], k);
     }
   to_legendre = values.inverse();
-  stages_to_legendre = Mat(values.block(1, 0, n, n)).inverse();
+  stages_to_legendre = values.block(1, 0, n, n).inverse();
   to_powers = at.inverse();
   diagonalize();
 }
 
-// A v = mu v for the values at the nodes of a polynomial v of degree n - 1 means that its integral from 0 less mu v is a multiple of the polynomial
-// M that vanishes at the nodes, so that v is the sum of mu^k times M's derivative of order k + 1. At 0 this asks for M(0) + mu M'(0) + .. = 0.
 void RadauTable::diagonalize() {
-  const Polynomial M = polynomial_with_zeros(c);
-  std::vector<Complex> at_zero(static_cast<std::size_t>(n + 1));  // of M's derivatives, that of order n first
-  Mat derivative(n, n);                                           // of order k + 1 at the nodes
-  Polynomial of_order = M;
-  for (int k = 0; k <= n; ++k) {
-    if (k > 0)
-      for (int i = 0; i < n; ++i) derivative(i, k - 1) = value(of_order, c[i]);
-    at_zero[static_cast<std::size_t>(n - k)] = of_order[0];
-    of_order = derived(of_order);
-  }
-  const std::vector<Complex> inverse_mu = zeros(at_zero);
-  const Mat to_derivatives = derivative.inverse();
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(A).inverse());
+  const Eigen::MatrixXcd T = eigen.eigenvectors(), inverse = T.inverse();
   int pair = 0;
-  for (std::size_t i = 0; i < inverse_mu.size(); ++i) {
-    const Complex mu = 1.0 / inverse_mu[i];
-    // The row of the inverse: the polynomial in mu, without a constant, that is 1 at this eigenvalue and 0 at the others.
-    std::vector<Complex> row{0, 1.0 / mu};
-    for (std::size_t j = 0; j < inverse_mu.size(); ++j)
-      if (j != i) row = times_zero_at(row, 1.0 / inverse_mu[j], mu);
-    ComplexVec T = ComplexVec::Zero(n), inverse = ComplexVec::Zero(n);
-    Complex power = 1;
-    for (int k = 0; k < n; ++k) {
-      power *= mu;
-      T += power * derivative.col(k);
-      inverse += row[static_cast<std::size_t>(k + 1)] * to_derivatives.row(k).transpose();
-    }
-    if (std::abs(mu.imag()) < 1e-9) {
-      real_eigenvalue = inverse_mu[i].real();
-      T_real = T.real();
-      inverse_real = inverse.real();
-    } else if (inverse_mu[i].imag() > 0) {
-      eigenvalue[pair] = inverse_mu[i];
-      T_complex[pair] = T;
-      inverse_complex[pair++] = inverse;
+  for (int i = 0; i < n; ++i) {
+    const std::complex<double> value = eigen.eigenvalues()[i];
+    if (std::abs(value.imag()) < 1e-9) {
+      // The real eigenvector may carry a complex factor; the product with its row of the inverse does not.
+      const std::complex<double> factor = T(n - 1, i);
+      real_eigenvalue = value.real();
+      T_real = (T.col(i) / factor).real();
+      inverse_real = (inverse.row(i) * factor).real().transpose();
+    } else if (value.imag() > 0) {
+      eigenvalue[pair] = value;
+      T_complex[pair] = T.col(i);
+      inverse_complex[pair++] = inverse.row(i).transpose();
     }
   }
 }
