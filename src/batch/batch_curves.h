@@ -93,7 +93,7 @@ class BatchCurves {
     }
   }
 
-  // theory/time Eq. (5.3)
+  // theory/time Eq. (5.4)
   PINTLE_PART void find_peaks(const VariantLanes& t0, const VariantLanes& h) {
     for (std::size_t j = 0; j < peaks_.size(); ++j) {
       VariantLanes square[CurveGrid::kPoints], couple_square[CurveGrid::kPoints];

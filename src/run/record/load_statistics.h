@@ -45,7 +45,7 @@ class BasicLoadRecorder {
   LoadStatistics couple(int joint) const { return over_run(couple_[static_cast<std::size_t>(joint)]); }
   LoadStatistics signal(int i) const { return over_run(signal_[static_cast<std::size_t>(i)]); }
   double span() const { return end_ - begin_; }  // [s]
-  /// Heat that the law of a joint has produced from the start up to `state`, the end of the last step [J]. theory/time Eq. (5.4)
+  /// Heat that the law of a joint has produced from the start up to `state`, the end of the last step [J]. theory/time Eq. (5.5)
   double heat(int joint, const BasicState<S>& state) const;
   const BasicWearTally<S>& wear() const { return wear_; }
   const BasicDutyTally<S>& duty() const { return duty_; }

@@ -24,7 +24,7 @@ double square_at(const CurveGrid& grid, double x, const double* samples, int str
   return square;
 }
 
-// Simpson's rule. theory/time Eq. (5.2)
+// Simpson's rule. theory/time Eq. (5.3)
 constexpr CurveGrid::AtPoints kSimpson = [] {
   constexpr double third = 1.0 / (3 * CurveGrid::kIntervals);
   CurveGrid::AtPoints weight{};
@@ -32,7 +32,7 @@ constexpr CurveGrid::AtPoints kSimpson = [] {
   return weight;
 }();
 
-// Through three equidistant squares; x is measured from the middle one in units of their distance. theory/time Eq. (5.3)
+// Through three equidistant squares; x is measured from the middle one in units of their distance. theory/time Eq. (5.4)
 struct Parabola {
   double before, here, after;
 
