@@ -147,6 +147,16 @@ between = ["a.p", "b.p"]
   }
 }
 
+// Steps of a tenth of a second: between their ends, too, redundant joints share the load as at the ends. The stages alone give it to a few thousandths.
+TEST(ForceAccuracyOfRedundantJoints, IsThatOfTheStepsEndsInside) {
+  Model model = reference::test_model("platform_on_three_rockers");
+  Trajectory run;
+  const Integration done = reference::integrate_once(model, 1e-3, 3, nullptr, &run);
+  EXPECT_LT(done.counters.steps, 30u);
+  model.simulate.tolerance = 1e-8;
+  EXPECT_LT(joint_differences(run, reference::completed(model), model).force, 1e-4);
+}
+
 // The bars of a symmetric truss put no load on its rail: what is left is the roundoff of their positions.
 TEST(ForceAccuracyOfNothing, ARailOfASymmetricTrussKnowsNothingOfItsForce) {
   const Trajectory run = reference::completed(reference::mechanism("snap_through_truss"));

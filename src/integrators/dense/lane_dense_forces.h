@@ -366,11 +366,14 @@ class LaneForces : public BasicDenseForces<S> {
       }
   }
 
-  // Takes away from the force what its gap has too much.
+  // Takes away from the force what its gap has too much; nothing at an instant at which this is not a number.
   void add_force_of_geometry(std::size_t j, double rounding) {
     const BasicJointData<S>& data = system_.joints[j];
     Joint& joint = joints_[j];
-    for (L& off : joint.off) off = where_larger(sizes(off), L::all(rounding), off, L::all(0));
+    for (int k = 0; k < S::kDof; ++k) {
+      joint.off[k] = where_larger(sizes(joint.off[k]), L::all(rounding), joint.off[k], L::all(0));
+      joint.rate_off[k] = where_larger(sizes(joint.rate_off[k]), L::all(0), joint.rate_off[k], L::all(0));
+    }
     if (joint.linear) {
       for (int k = 0; k < S::kDof; ++k) joint.force[k] += joint.linear->k[k] * joint.off[k] + joint.linear->c[k] * joint.rate_off[k];
       return;
@@ -406,22 +409,15 @@ class LaneForces : public BasicDenseForces<S> {
         for (int k = 0; k < S::kDof; ++k) pull_[b][k] = system_.bodies[b].mass[k] * pull_[b][k];
       lu_of_openings_.solve(pull_);
       pull_.back() = zero();
-      for (std::size_t j = 0; j < joints_.size(); ++j) {
-        const BasicPlacement<S>& at = system_.joints[j].at;
-        L e[S::kDof];
-        joints_[j].map.gather(&pull_[body(at.a)][0], &pull_[body(at.b)][0], e);
-        weigh(joints_[j], e, joints_[j].change);
-      }
-      return;
     }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const BasicPlacement<S>& at = system_.joints[j].at;
       L e[S::kDof];
       joint.map.gather(&pull_[body(at.a)][0], &pull_[body(at.b)][0], e);
-      for (int k = 0; k < S::kDof; ++k) e[k] = joint.accel[k] - e[k];
+      for (int k = 0; k < S::kDof && !follows_geometry; ++k) e[k] = joint.accel[k] - e[k];
       weigh(joint, e, joint.change);
-      for (L& change : joint.change) change = (1 / (mu * mu)) * change;
+      for (int k = 0; k < S::kDof && !follows_geometry; ++k) joint.change[k] = (1 / (mu * mu)) * joint.change[k];
     }
   }
 
