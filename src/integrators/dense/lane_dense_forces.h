@@ -245,7 +245,7 @@ class LaneForces : public BasicDenseForces<S> {
 
   // The bodies' response to forces w gap of all joints, into pull_.
   template <class Gap>
-  void pull(Gap gap, BlockLu<L, S::kDof>& lu) {
+  void find_response(Gap gap, BlockLu<L, S::kDof>& lu) {
     for (Row& x : pull_) x = zero();
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const BasicPlacement<S>& at = system_.joints[j].at;
@@ -258,7 +258,7 @@ class LaneForces : public BasicDenseForces<S> {
   }
 
   void move_onto_rates() {
-    pull(&Joint::rate, lu_);
+    find_response(&Joint::rate, lu_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) bodies_[b].v[k] += pull_[b][k];
     for (auto& body : bodies_) body.renew_rates();
@@ -271,7 +271,7 @@ class LaneForces : public BasicDenseForces<S> {
     for (std::size_t j = 0; j < joints_.size(); ++j)
       for (int k = 0; k < S::kDof && joints_[j].pose; ++k) {
         const L& w = joints_[j].linear ? joints_[j].weight[k] : joints_[j].weight[(S::kDof + 1) * k];
-        if (std::abs(w[kN - 1] * (end.gap[j][k] - GapAtNodes::of(begin, end, nodes, j, k).integrated)) > kVisible * largest) return true;
+        if (std::abs(w[kN - 1] * (end.gap[j][k] - GapAtNodes::of_last_stage(begin, end, nodes, j, k))) > kVisible * largest) return true;
       }
     return false;
   }
@@ -313,23 +313,24 @@ class LaneForces : public BasicDenseForces<S> {
     find_gaps_of_forces(begin, end, nodes);
     on_curves_ = bodies_;
     find_misfits();
-    pull(&Joint::off, lu_);
+    find_response(&Joint::off, lu_);
     for (std::size_t b = 0; b < n_bodies(); ++b) {
       bodies_[b].move(&pull_[b][0]);
       bodies_[b].renew_rates();
     }
     find_misfits();
-    leave_what_no_motion_closes(&Joint::off);
-    leave_what_no_motion_closes(&Joint::rate_off);
+    remove_closable_part(&Joint::off);
+    remove_closable_part(&Joint::rate_off);
     const double rounding = kLastBits * largest_coordinate(end.q);
     for (std::size_t j = 0; j < joints_.size(); ++j)
       if (joints_[j].pose) add_force_of_geometry(j, rounding);
     bodies_ = on_curves_;
   }
 
+  // Takes away from gaps or rates what a motion of the bodies could close.
   template <class Gap>
-  void leave_what_no_motion_closes(Gap off) {
-    pull(off, lu_of_openings_);
+  void remove_closable_part(Gap off) {
+    find_response(off, lu_of_openings_);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const BasicPlacement<S>& at = system_.joints[j].at;
@@ -403,7 +404,7 @@ class LaneForces : public BasicDenseForces<S> {
       joint.map.gather(bodies_[body(at.a)].a, bodies_[body(at.b)].a, e);
       for (int k = 0; k < S::kDof; ++k) joint.accel[k] -= bias[k] + e[k];
     }
-    pull(&Joint::accel, lu_);
+    find_response(&Joint::accel, lu_);
     if (follows_geometry) {  // by changes that motions ask for: theory/time section 5
       for (std::size_t b = 0; b < n_bodies(); ++b)
         for (int k = 0; k < S::kDof; ++k) pull_[b][k] = system_.bodies[b].mass[k] * pull_[b][k];
