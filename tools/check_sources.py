@@ -15,7 +15,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = "base simd space model laws joints linalg system kinematics integrators mobility dynamics start bearings run batch check studies live results io report sweeps".split()
+ROOMS = "base simd space model linalg laws joints system kinematics integrators mobility dynamics start bearings run batch check studies live results io report sweeps".split()
 # The folders of a room, in order of dependence; files in the room itself are open to all of them.
 FOLDERS_OF = {
     "base": "text tables expression".split(),

@@ -103,7 +103,7 @@ TEST(Batch, DependsOnNoNeighbour) {
   }
 }
 
-#ifdef PINTLE_WIDE
+#if PINTLE_BUILDS_256 && PINTLE_BUILDS_512
 TEST(Batch, WidthsOfRegistersGiveTheSameBits) {
   const auto plan = plan_for(driven_four_bar());
   ASSERT_TRUE(plan.has_value());

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "laws/law_tangents.h"
+#include "linalg/dense_factors.h"
 #include "mobility/constraint_rows.h"
 
 namespace pintle {
@@ -126,8 +126,9 @@ std::vector<CheckComponent> local_components(const System& system, const MassSca
 
 std::vector<CheckMode> all_modes(const MassScaledRows& rows, int n_free) {
   std::vector<CheckMode> modes;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rows.stiffness());
-  for (int i = n_free; i < rows.size(); ++i) modes.push_back(rows.mode(solver.eigenvectors().col(i)));
+  SymmetricEigen modes_of_rows;
+  if (!modes_of_rows.compute(rows.stiffness())) return modes;
+  for (int i = n_free; i < rows.size(); ++i) modes.push_back(rows.mode(modes_of_rows.eigenvectors().col(i)));
   std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
   return modes;
 }

@@ -1,6 +1,5 @@
 #include "laws/catalog.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "laws/catalog_parts.h"
 #include "laws/maxwell.h"
 #include "laws/tension.h"
+#include "linalg/dense_factors.h"
 
 namespace pintle {
 namespace {
@@ -84,7 +84,8 @@ bool is_semi_definite(const Planar::Mat& m) {
   for (int i = 0; i < 3; ++i)
     if (size[i] == 0) size[i] = 1;
   const Planar::Mat scaled = size.cwiseInverse().asDiagonal() * m * size.cwiseInverse().asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Planar::Mat>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() > -1e-12;
+  SymmetricEigen eigen;
+  return eigen.compute(scaled) && eigen.eigenvalues().minCoeff() > -1e-12;
 }
 
 LawFault bushing_fault(const LawSetting& at) {

@@ -81,7 +81,7 @@ TYPED_TEST(AnyLanes, LargerSizeIsTheLargestMagnitude) {
   }
 }
 
-#ifdef PINTLE_WIDE
+#if PINTLE_BUILDS_256
 template <int N>
 using Four = std::array<Lanes<N>, 4>;
 

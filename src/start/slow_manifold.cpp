@@ -1,6 +1,5 @@
 #include "start/slow_manifold.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "dynamics/inverse_dynamics.h"
 #include "linalg/chebyshev_nodes.h"
+#include "linalg/dense_factors.h"
 #include "start/preload.h"
 
 namespace pintle {
@@ -177,6 +177,7 @@ class BasicSlowManifold {
 
   // Overdamped gaps from their starting values, by collocation at the other nodes. theory/assembly Eq. (5.6).
   void follow_overdamped() {
+    Lu factors;
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       std::array<BasicResponse<S>, kNodes> now;
       for (int n = 0; n < kNodes; ++n) now[n] = respond(system_.joints[j].law, gap_[n][j], rate_[n][j]);
@@ -184,8 +185,8 @@ class BasicSlowManifold {
         if (time_scales_.resolved[j][i] != 0)
           for (auto& gap : next_) gap[j][i] = start_.gap[j][i];
         if (time_scales_.overdamped[j][i] == 0) continue;
-        Eigen::Matrix<double, kNodes, kNodes> A = nodes_.D / span_;
-        Eigen::Matrix<double, kNodes, 1> b;
+        Eigen::MatrixXd A = nodes_.D / span_;
+        Eigen::VectorXd b(kNodes);
         for (int n = 0; n < kNodes; ++n) {
           const double k = now[n].stiffness(i, i), c = now[n].damping(i, i);
           A.row(n) *= c;
@@ -195,7 +196,8 @@ class BasicSlowManifold {
         A.row(0).setZero();
         A(0, 0) = 1;
         b[0] = start_.gap[j][i];
-        b = A.partialPivLu().solve(b).eval();
+        factors.compute(A);
+        b = factors.solve(b);
         for (int n = 0; n < kNodes; ++n) next_[n][j][i] = b[n];
       }
     }

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "base/text/article.h"
+#include "linalg/dense_factors.h"
 #include "system/pose_joint.h"
 
 namespace pintle {
@@ -142,7 +142,9 @@ void JointTree::read_rates(const TreePose& pose, const Vecs& v, Eigen::VectorXd&
   Vecs momentum(v.size());
   for (std::size_t i = 0; i < v.size(); ++i) momentum[i] = system_.bodies[i].mass.cwiseProduct(v[i]);
   gather(pose, momentum, u);
-  u = H.llt().solve(u);
+  Cholesky factors;
+  factors.compute(H);
+  u = factors.solve(u);
 }
 
 void JointTree::place(const Eigen::VectorXd& y, const Eigen::VectorXd& u, TreePose& pose) const {

@@ -444,22 +444,16 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   };
 
 PINTLE_END_POINT(NarrowEndPointProjection, )
-#ifdef PINTLE_WIDE
 PINTLE_END_POINT(WideEndPointProjection, PINTLE_WIDE)
 PINTLE_END_POINT(WidestEndPointProjection, PINTLE_WIDEST)
-#endif
 #undef PINTLE_END_POINT
 
 }  // namespace
 
 template <class S>
 std::unique_ptr<BasicEndPointProjection<S>> make_end_point_projection(const BasicSystem<S>& system) {
-#ifdef PINTLE_WIDE
-  if constexpr (!S::kCurved)
-    if (has_widest_registers()) return std::make_unique<WidestEndPointProjection<S>>(system);
-  if (has_wide_registers()) return std::make_unique<WideEndPointProjection<S>>(system);
-#endif
-  return std::make_unique<NarrowEndPointProjection<S>>(system);
+  using Widest = std::conditional_t<S::kCurved, WideEndPointProjection<S>, WidestEndPointProjection<S>>;
+  return make_for_processor<BasicEndPointProjection<S>, NarrowEndPointProjection<S>, WideEndPointProjection<S>, Widest>(system);
 }
 
 template std::unique_ptr<BasicEndPointProjection<Planar>> make_end_point_projection(const BasicSystem<Planar>& system);

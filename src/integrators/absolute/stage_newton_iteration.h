@@ -456,20 +456,14 @@ void LaneStageSolver<S, N>::filter_lanes(std::vector<RowOf4<S>>& forces) const {
   };
 
 PINTLE_SOLVER(NarrowSolver, )
-#ifdef PINTLE_WIDE
 PINTLE_SOLVER(WideSolver, PINTLE_WIDE)
 PINTLE_SOLVER(WidestSolver, PINTLE_WIDEST)
-#endif
 #undef PINTLE_SOLVER
 
 template <class S, int N>
 std::unique_ptr<BasicStageSolver<S>> make_solver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps) {
-#ifdef PINTLE_WIDE
-  if constexpr (!S::kCurved)  // in space it takes long to compile, and gains little
-    if (has_widest_registers()) return std::make_unique<WidestSolver<S, N>>(system, table, tolerance, steps);
-  if (has_wide_registers()) return std::make_unique<WideSolver<S, N>>(system, table, tolerance, steps);
-#endif
-  return std::make_unique<NarrowSolver<S, N>>(system, table, tolerance, steps);
+  using Widest = std::conditional_t<S::kCurved, WideSolver<S, N>, WidestSolver<S, N>>;  // in space it takes long to compile, and gains little
+  return make_for_processor<BasicStageSolver<S>, NarrowSolver<S, N>, WideSolver<S, N>, Widest>(system, table, tolerance, steps);
 }
 
 template <class S>

@@ -13,7 +13,6 @@ class NarrowForces final : public LaneForces<S> {
   void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, typename BasicDenseForces<S>::Sampled& sampled) override { this->find_all(begin, end, nodes, sampled); }
 };
 
-#ifdef PINTLE_WIDE
 template <class S>
 class WideForces final : public LaneForces<S> {
  public:
@@ -27,18 +26,13 @@ class WidestForces final : public LaneForces<S> {
   using LaneForces<S>::LaneForces;
   PINTLE_WIDEST void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, typename BasicDenseForces<S>::Sampled& sampled) override { this->find_all(begin, end, nodes, sampled); }
 };
-#endif
 
 }  // namespace
 
 template <class S>
 std::unique_ptr<BasicDenseForces<S>> make_dense_forces(const BasicSystem<S>& system) {
-#ifdef PINTLE_WIDE
-  if constexpr (!S::kCurved)
-    if (has_widest_registers()) return std::make_unique<WidestForces<S>>(system);
-  if (has_wide_registers()) return std::make_unique<WideForces<S>>(system);
-#endif
-  return std::make_unique<NarrowForces<S>>(system);
+  using Widest = std::conditional_t<S::kCurved, WideForces<S>, WidestForces<S>>;
+  return make_for_processor<BasicDenseForces<S>, NarrowForces<S>, WideForces<S>, Widest>(system);
 }
 
 template std::unique_ptr<BasicDenseForces<Planar>> make_dense_forces(const BasicSystem<Planar>& system);

@@ -1,13 +1,14 @@
 #include "integrators/dense/force_samples.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+
+#include "linalg/dense_factors.h"
 
 namespace pintle {
 
 ForceSamples::ForceSamples(const RadauTable& table) {
-  Eigen::Matrix<double, kAll, kAll> powers;
+  Eigen::MatrixXd powers(kAll, kAll);
   for (int i = 0; i < kAll; ++i) {
     x[i] = 0.5 * (1 - std::cos(std::numbers::pi * i / (kAll - 1)));
     for (int k = 0; k < kAll; ++k) powers(i, k) = std::pow(x[i], k);
@@ -21,7 +22,7 @@ ForceSamples::ForceSamples(const RadauTable& table) {
       }
     }
   }
-  const Eigen::Matrix<double, kAll, kAll> inverse = powers.inverse();
+  const Eigen::MatrixXd inverse = inverse_of(powers);
   for (int k = 0; k < kAll; ++k)
     for (int i = 0; i < kAll; ++i) to_powers[k][i] = inverse(k, i);
 }

@@ -151,8 +151,7 @@ bool IdealEquations::factorize_sparse() {
 }
 
 bool IdealEquations::find_modes() {
-  modes_.compute(Eigen::MatrixXd(matrix_));  // of the lower half; ascending
-  if (modes_.info() != Eigen::Success) return false;
+  if (!modes_.compute(Eigen::MatrixXd(matrix_))) return false;
   smallest_pivot_ = modes_.eigenvalues()[n_redundant_];
   return true;
 }

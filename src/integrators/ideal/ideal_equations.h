@@ -9,13 +9,13 @@
 // A penalty alpha adds 1/alpha to the diagonal, theory/penalty Eq. (1.4). So dependent rows need no special treatment.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <array>
 #include <string>
 #include <vector>
 
+#include "linalg/dense_factors.h"
 #include "pintle/model.h"
 #include "system/state.h"
 
@@ -123,7 +123,7 @@ class IdealEquations {
   Vecs still_;
   double size_ = 1, smallest_pivot_ = 1, damped_ = 1e-9;
   int n_redundant_ = 0;                 // number of redundant rows, if all rows are kept
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes_;
+  SymmetricEigen modes_;
 };
 
 /// Projects the positions and velocities of a start onto the constraints, regardless of what enforces these afterwards.

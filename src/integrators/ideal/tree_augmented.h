@@ -2,8 +2,6 @@
 // integrates; multipliers and penalties close the loops, and rates and accelerations are projected. theory/penalty section 5.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "integrators/general/usual_tolerance.h"
 #include "integrators/relative/tree_instant.h"
 #include "integrators/stepper.h"
+#include "linalg/dense_factors.h"
 
 namespace pintle {
 
@@ -62,10 +61,10 @@ class TreeAugmented final : public Stepper {
   std::vector<Row> rows_;
   double max_step_ = 0, h_ = 0, h_before_ = 0;
   // Projections: A H^-1 A' of the rows, scaled to a unit diagonal.
-  Eigen::LLT<Eigen::MatrixXd> mass_, rows_matrix_;
+  Cholesky mass_, rows_matrix_;
   Eigen::MatrixXd A_, pull_;  // the rows' part of A; H^-1 A'
   Vector scale_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Lu lu_;
   Eigen::MatrixXd newton_;
   TreeState begin_, end_, trial_, inside_;
   Vector own_w_, law_w_, w_before_, u_before_;    // accelerations at the start: the method's own, those of the forces; at the previous start

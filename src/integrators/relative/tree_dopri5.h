@@ -41,7 +41,7 @@ class TreeDopri5 final : public Stepper {
   double tolerance_, max_step_ = 0, h_ = 0;
   TreeInstant at_;
   Eigen::MatrixXd mass_matrix_;
-  Eigen::LLT<Eigen::MatrixXd> mass_;
+  Cholesky mass_;
   TreeState begin_, end_, before_event_, stage_;  // before_event_: the end before laws set their states there
   State begin_state_, end_state_, inside_state_;
   std::array<Eigen::VectorXd, 7> ky_, ku_;

@@ -10,8 +10,7 @@ using Eigen::VectorXd;
 
 bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws, const VectorXd& taut) {
   at.find_matrices();
-  mass_.compute(at.H());
-  if (mass_.info() != Eigen::Success) return false;
+  if (!mass_.compute(at.H())) return false;
   A_ = at.A();
   const Index m = A_.rows();
   if (m == 0) return true;
@@ -38,8 +37,7 @@ bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at
   matrix = weighted(mobility);
   matrix.diagonal().array() += mu * mu;
   row_ = matrix.cwiseAbs().rowwise().maxCoeff().cwiseInverse();
-  lu_.compute(row_.asDiagonal() * matrix);
-  return std::isfinite(lu_.matrixLU().sum());
+  return lu_.compute(row_.asDiagonal() * matrix);
 }
 
 // The mass matrix of (6.4), for the response of the coordinates to gaps.

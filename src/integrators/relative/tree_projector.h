@@ -2,10 +2,8 @@
 // with the gaps' accelerations, both by degree of stiffness. theory/tree section 6.
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include "integrators/relative/tree_instant.h"
+#include "linalg/dense_factors.h"
 
 namespace pintle {
 
@@ -33,11 +31,11 @@ class TreeProjector {
   Eigen::VectorXd forces_for(const Eigen::VectorXd& on_coordinates) const;
   static constexpr int kPasses = 2;  // passes of the projection, after the first, if bodies are held
 
-  Eigen::LLT<Eigen::MatrixXd> mass_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Cholesky mass_;
+  Lu lu_;
   Eigen::MatrixXd A_, pull_;       // pull = H^-1 A'
   bool taut_ = false;              // bodies are held
-  Eigen::LLT<Eigen::MatrixXd> held_mass_;
+  Cholesky held_mass_;
   Eigen::MatrixXd held_stiffness_;        // J' taut J / mu^2
   std::vector<Planar::Mat> weight_;
   Eigen::VectorXd row_;            // scale of the rows

@@ -2,7 +2,6 @@
 // of the carried gaps. theory/tree section 5.
 #pragma once
 
-#include <Eigen/LU>
 #include <vector>
 
 #include "integrators/absolute/stage_solver.h"
@@ -10,6 +9,7 @@
 #include "integrators/radau/predictor.h"
 #include "integrators/radau/radau_table.h"
 #include "integrators/relative/tree_instant.h"
+#include "linalg/dense_factors.h"
 
 namespace pintle {
 
@@ -47,7 +47,7 @@ class TreeStages {
   double correct(const LoadScale& scale);
 
   template <class Scalar>
-  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Matrix = DenseMatrix<Scalar>;
   /// One of the systems into which the equations decouple.
   template <class Scalar>
   struct Mode {
@@ -55,12 +55,12 @@ class TreeStages {
     Matrix<Scalar> pull;  // A' Z(mu)/mu^2
     std::vector<LawImpedance<Scalar>> law;
     Matrix<Scalar> gaps;  // A + E_u/mu + E_y/mu^2
-    Eigen::PartialPivLU<Matrix<Scalar>> lu;
+    DenseFactors<Eigen::PartialPivLU<Matrix<Scalar>>> lu;
   };
   template <class Scalar>
   bool factorize(Mode<Scalar>& mode);
   template <class Scalar>
-  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Vector = DenseVector<Scalar>;
   template <class Scalar>
   Vector<Scalar> pushes(const Mode<Scalar>& mode, const Vector<Scalar>& missing) const;
   template <class Scalar>

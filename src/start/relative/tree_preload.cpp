@@ -9,6 +9,7 @@
 #include "integrators/thresholds.h"
 #include "laws/gap_at_force.h"
 #include "linalg/chebyshev_nodes.h"
+#include "linalg/dense_factors.h"
 #include "start/preload.h"
 #include "start/slow_manifold.h"
 
@@ -26,7 +27,9 @@ const Law& law_of(const TreeInstant& at, std::size_t l) { return at.system().joi
 
 // The lowest frequency that the stiffness of a single law gives to the whole tree.
 double slowest_joint(const TreeInstant& at) {
-  const MatrixXd mobility = at.A() * at.H().llt().solve(at.A().transpose());
+  Cholesky mass;
+  mass.compute(at.H());
+  const MatrixXd mobility = at.A() * mass.solve(at.A().transpose());
   double slowest = std::numeric_limits<double>::infinity();
   for (std::size_t l = 0; l < at.tree().laws().size(); ++l) {
     const S::Vec k = law_of(at, l).engaged_stiffness();
