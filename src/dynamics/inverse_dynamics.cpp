@@ -19,21 +19,11 @@ constexpr double kClosed = 1e-11;    // passes end when the correction is below 
 constexpr double kRedundant = 1e-3;  // as a fraction of test forces on all joints: a joint is redundant if more than this remains of its force
 constexpr int kMostHalvings = 6;     // upper limit on halvings of a step until no law crosses a border
 
-// The lowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (only components in
-// `moved`, if given).
+// Over all joints.
 template <class S>
 double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointKinematics<S>>& r, const VecsOf<S>* moved = nullptr) {
   double slowest = std::numeric_limits<double>::infinity();
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const BasicJointData<S>& joint = system.joints[j];
-    typename S::Vec k = joint.law.engaged_stiffness();
-    if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r[j].gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge in contact
-    const typename S::Vec mobility = system.own_mobility(joint.at, r[j]);
-    for (int c = 0; c < S::kDof; ++c) {
-      if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;
-      if (mobility[c] > 0) slowest = std::min(slowest, std::sqrt(k[c] * mobility[c]));
-    }
-  }
+  for (int j = 0; j < system.n_joints(); ++j) slowest = std::min(slowest, lowest_own_frequency(system, system.joints[j], r[j], moved ? &(*moved)[j] : nullptr));
   return slowest;
 }
 
@@ -48,6 +38,17 @@ bool drags(const BasicJointData<S>& joint) {
 }
 
 }  // namespace
+
+template <class S>
+double lowest_own_frequency(const BasicSystem<S>& system, const BasicJointData<S>& joint, const BasicJointKinematics<S>& r, const typename S::Vec* moved) {
+  typename S::Vec k = joint.law.engaged_stiffness();
+  if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r.gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge in contact
+  const typename S::Vec mobility = system.own_mobility(joint.at, r);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < S::kDof; ++c)
+    if (k[c] > 0 && mobility[c] > 0 && (!moved || (*moved)[c] != 0)) lowest = std::min(lowest, std::sqrt(k[c] * mobility[c]));
+  return lowest;
+}
 
 template <class S>
 bool is_in_play(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
@@ -445,6 +446,8 @@ void BasicInverseDynamics<S>::set_linearized_gaps_from_bodies(BasicState<S>& sta
   }
 }
 
+template double lowest_own_frequency<Planar>(const System& system, const JointData& joint, const JointKinematics& r, const Planar::Vec* moved);
+PINTLE_IN_SPACE(template double lowest_own_frequency<Spatial>(const BasicSystem<Spatial>& system, const BasicJointData<Spatial>& joint, const BasicJointKinematics<Spatial>& r, const Spatial::Vec* moved);)
 template bool is_in_play<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);
 PINTLE_IN_SPACE(template bool is_in_play<Spatial>(const BasicLaw<Spatial>& law, const Spatial::Vec& gap, const Spatial::Vec& rate);)
 template bool is_apart<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);

@@ -33,6 +33,11 @@ struct BasicEffectiveMasses {
 };
 using EffectiveMasses = BasicEffectiveMasses<Planar>;
 
+/// The lowest frequency that the stiffness of a joint gives to its two bodies, if nothing else holds them (only in components that are not 0 in `moved`, if
+/// given) [rad/s]; infinity where it has no stiffness.
+template <class S>
+double lowest_own_frequency(const BasicSystem<S>& system, const BasicJointData<S>& joint, const BasicJointKinematics<S>& r, const typename S::Vec* moved = nullptr);
+
 /// Whether a law gives no force at all in some component in which it would hold its joint, as within its play.
 template <class S>
 bool is_in_play(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate);

@@ -20,6 +20,7 @@
 #include "laws/catalog.h"
 #include "laws/pressure.h"
 #include "laws/separating_force.h"
+#include "system/joint_tree.h"
 #include "system/speed_integral.h"
 
 namespace pintle {
@@ -40,12 +41,22 @@ class Builder {
     for (const Motor& motor : model_.motors) add_motor(motor);
     for (const Spring& spring : model_.springs) add_spring(spring);
     for (const AppliedForce& force : model_.forces) add_force(force);
+    if (model_.simulate.equations == Equations::kRelative) open_loops();
     system_.finish(like);
     return std::move(system_);
   }
 
  private:
   [[noreturn]] static void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+  void open_loops() {
+    const JointTree tree(system_);
+    for (int j = 0; j < system_.n_joints(); ++j) {
+      JointData& joint = system_.joints[j];
+      joint.opened = joint.ideal && !tree.in_tree(j);
+      joint.ideal = tree.in_tree(j);
+    }
+  }
 
   void add_body(const Body& body) {
     if (!(body.mass > 0) || !(body.inertia > 0)) refuse(fmt::format("body {}: mass and inertia must be positive", body.name));

@@ -78,7 +78,7 @@ void JointTree::grow(int from, const std::vector<std::vector<int>>& ideal_at) {
 void JointTree::open_the_rest() {
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
-    if (!joint.ideal || in_tree_[j]) continue;
+    if (in_tree_[j] || !(joint.ideal || joint.opened)) continue;
     if (is_pose_joint(joint))
       opened_.push_back(fmt::format("joint {} is opened: it closes a loop with the ideal {}; its force law acts", joint.name, loop_of(j)));
     else

@@ -69,6 +69,7 @@ struct BasicJointData {
   std::shared_ptr<const EdgeProfile> edge{};  // read by that of an edge
   BasicLaw<S> law;
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not evaluated
+  bool opened = false;         // the model calls it ideal, but the tree of relative coordinates cannot keep its gap at zero: its law acts
   bool constrained = false;    // an ideal joint in constraint equations: a start finds no deflection for it
   std::array<bool, S::kDof> redundant{};  // components of an ideal joint that other ideal joints constrain already
   int servo = -1;              // component driven by a servo, -1: not a servo

@@ -9,7 +9,6 @@
 #include "integrators/thresholds.h"
 #include "laws/gap_at_force.h"
 #include "linalg/chebyshev_nodes.h"
-#include "linalg/dense_factors.h"
 #include "start/preload.h"
 #include "start/slow_manifold.h"
 
@@ -25,19 +24,12 @@ double largest_size(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs()
 
 const Law& law_of(const TreeInstant& at, std::size_t l) { return at.system().joints[at.tree().laws()[l]].law; }
 
-// The lowest frequency that the stiffness of a single law gives to the whole tree.
+// That of the joint to which it is lowest. As for free bodies, and not over the motions of the tree: some of these hardly move a gap, and next to their
+// frequencies gaps that no motion can close would look as if one could.
 double slowest_joint(const TreeInstant& at) {
-  Cholesky mass;
-  mass.compute(at.H());
-  const MatrixXd mobility = at.A() * mass.solve(at.A().transpose());
   double slowest = std::numeric_limits<double>::infinity();
-  for (std::size_t l = 0; l < at.tree().laws().size(); ++l) {
-    const S::Vec k = law_of(at, l).engaged_stiffness();
-    for (int c = 0; c < 3; ++c) {
-      const double m = mobility(3 * static_cast<Index>(l) + c, 3 * static_cast<Index>(l) + c);
-      if (k[c] > 0 && m > 0) slowest = std::min(slowest, std::sqrt(k[c] * m));
-    }
-  }
+  for (std::size_t l = 0; l < at.tree().laws().size(); ++l)
+    slowest = std::min(slowest, lowest_own_frequency(at.system(), at.system().joints[at.tree().laws()[l]], at.kinematics(static_cast<int>(l))));
   return slowest;
 }
 
