@@ -123,6 +123,30 @@ TEST(RelativeFourBar, ALoopOfIdealJointsIsOpenedAndTheNotesSayWhere) {
   EXPECT_TRUE(noted("joints eliminated by relative coordinates: O2, O4, A; 3 coordinates"));
 }
 
+// Its force law acts, so that what its spring stores belongs to the energy account, and the run does not depend on whether the model calls it ideal.
+TEST(RelativeFourBar, AnOpenedJointKeepsTheEnergyOfItsLaw) {
+  const Model model = stiff("four_bar", 2e5, 100);
+  const Trajectory one = completed(over_tree(model, {"O2", "A", "O4"})), all = completed(over_tree(model, all_but(model, "")));
+  EXPECT_EQ(compare_runs(one, all).forces, 0);
+  EXPECT_EQ(all.energy.drift, one.energy.drift);
+  EXPECT_LT(reference::drift(all), 1e-6);
+}
+
+// Pins whose misfit hardly any motion of the tree changes: their load is the misfit times the stiffness of the one that is not ideal, and the arm stays where it is.
+TEST(RelativeArm, RedundantPinsStartWithTheLoadOfTheirMisfit) {
+  for (const double misfit : {0.0, 1e-5, 3e-5, 1e-4}) {
+    Model model = reference::test_model("arm_of_pinned_plates");
+    Marker& hole = model.bodies[1].markers[1];
+    ASSERT_EQ(hole.name, "Q");
+    hole.position[0] = -0.3 + misfit;
+    const Trajectory run = completed(model);
+    EXPECT_NEAR(value(run, 0, "body.a.angle"), 0, 1e-5) << misfit;
+    EXPECT_NEAR(value(run, 0, "body.b.angle"), 0, 1e-5) << misfit;
+    EXPECT_NEAR(std::abs(value(run, 0, "joint.Q.on_b.fx[world]")), 5e7 * misfit, 0.05) << misfit;
+    EXPECT_LT(reference::drift(run), 1e-6) << misfit;
+  }
+}
+
 // Coupler and follower at rest while the crank turns: ideal joints share out the momentum at once, the opened one keeps its law. Its damping dissipates what
 // the free bodies' joints do, and both settle on the same motion.
 TEST(RelativeFourBar, AnInconsistentStartSettlesOnTheMotionOfFreeBodies) {
