@@ -157,7 +157,8 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_before_ = std::exchange(coarse_tolerance_, before);
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    share_ = share_while_small_ = alike_ || out_.of_motion || last_.sliding_load >= 0 ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
+    const bool all = alike_ || out_.of_motion || last_.sliding_load >= 0 || multiplies_roundoff();
+    share_ = share_while_small_ = all ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
@@ -210,6 +211,9 @@ class Passes {
     const double least = feels_rounding(fine_tolerance_) ? kRepeated : 0;  // part of the error of its steps is roundoff, which no tolerance reduces
     return std::max({least, of_tolerance, std::pow(steps_before / static_cast<double>(last_.counters.steps), choice_.stages + 1)});
   }
+
+  // Whether the motion may have made roundoff, which no tolerance reduces, as large as other errors: those of earlier passes have grown exponentially.
+  bool multiplies_roundoff() const { return growths_ > 0 && fine_tolerance_ < kNearRounding; }
 
   // A difference that has stopped growing does not show which part of it is the finer pass's error.
   void take_all(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
