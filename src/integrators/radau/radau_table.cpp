@@ -1,7 +1,6 @@
 #include "integrators/radau/radau_table.h"
 
 #include <cmath>
-#include <vector>
 
 #include "linalg/dense_factors.h"
 #include "linalg/lagrange_weights.h"
@@ -68,34 +67,27 @@ RadauTable::RadauTable(int stages) : n(stages), pairs((stages - 1) / 2) {
   diagonalize();
 }
 
-// By inverse iteration from the eigenvalues to three digits, of which each pass adds as many.
 void RadauTable::diagonalize() {
-  constexpr int kPasses = 10;
-  using Complex = std::complex<double>;
-  const std::vector<Complex> roughly = n == 3 ? std::vector<Complex>{3.638, {2.681, 3.050}} : std::vector<Complex>{6.287, {3.656, 6.544}, {5.701, 3.210}};
-  const Eigen::MatrixXcd matrix = inverse_of(A).cast<Complex>();
-  Eigen::MatrixXcd T(n, n);
-  for (int k = 0; k <= pairs; ++k) {
-    ComplexLu factors;
-    factors.compute(matrix - roughly[k] * Eigen::MatrixXcd::Identity(n, n));
-    Eigen::VectorXcd x = Eigen::VectorXcd::Ones(n);
-    for (int pass = 0; pass < kPasses; ++pass) x = factors.solve(x).normalized();
-    const Complex value = x.dot(matrix * x);
-    if (k == 0) {
-      real_eigenvalue = value.real();
-      T_real = (x / x[n - 1]).real();
-      T.col(0) = T_real.cast<Complex>();
-    } else {
-      eigenvalue[k - 1] = value;
-      T_complex[k - 1] = T.col(2 * k - 1) = x;
-      T.col(2 * k) = x.conjugate();
-    }
-  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(inverse_of(A));
+  const Eigen::MatrixXcd T = eigen.eigenvectors();
   ComplexLu factors;
   factors.compute(T);
   const Eigen::MatrixXcd inverse = factors.solve(Eigen::MatrixXcd::Identity(n, n));
-  inverse_real = inverse.row(0).real().transpose();
-  for (int p = 0; p < pairs; ++p) inverse_complex[p] = inverse.row(2 * p + 1).transpose();
+  int pair = 0;
+  for (int i = 0; i < n; ++i) {
+    const std::complex<double> value = eigen.eigenvalues()[i];
+    if (std::abs(value.imag()) < 1e-9) {
+      // The real eigenvector may carry a complex factor; the product with its row of the inverse does not.
+      const std::complex<double> factor = T(n - 1, i);
+      real_eigenvalue = value.real();
+      T_real = (T.col(i) / factor).real();
+      inverse_real = (inverse.row(i) * factor).real().transpose();
+    } else if (value.imag() > 0) {
+      eigenvalue[pair] = value;
+      T_complex[pair] = T.col(i);
+      inverse_complex[pair++] = inverse.row(i).transpose();
+    }
+  }
 }
 
 RadauTable::Vec RadauTable::weights_of_last(int count, double x) const {
