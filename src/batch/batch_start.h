@@ -42,8 +42,8 @@ class BatchStart {
 
   void read(const BatchState& state) { PINTLE_BATCH::read(mechanism_, state.t, state.q, state.v, m_, r_); }
 
-  // The frequency above which modes are held: a fraction of the slowest that a joint gives its own two bodies.
-  PINTLE_LANES VariantLanes held_above() const {
+  // The frequency above which modes are held, under the loads Q_.
+  PINTLE_LANES VariantLanes find_held_above(const BatchState& state) const {
     VariantLanes slowest(1e300);
     for (std::size_t j = 0; j < r_.size(); ++j) {
       const BatchJoint& joint = mechanism_.joints[j];
@@ -64,7 +64,16 @@ class BatchStart {
         if (joint.stiff[k]) slowest = smaller(slowest, joint.k[k] * mobility[k]);
     }
     VariantLanes mu;
-    for (int lane = 0; lane < kVariantLanes; ++lane) mu.set(lane, kHeldAbove * std::sqrt(slowest[lane]));
+    for (int lane = 0; lane < kVariantLanes; ++lane) {
+      double load = 0, mass = 0, size = 1e-3;
+      for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i) {
+        const VariantVec& over = mechanism_.bodies[i].over_mass;
+        load += std::hypot(Q_[i][0][lane], Q_[i][1][lane]);
+        mass += 1 / over[0][lane];
+        size = std::max({size, std::abs(state.q[i][0][lane]), std::abs(state.q[i][1][lane]), std::sqrt(over[0][lane] / over[2][lane])});
+      }
+      mu.set(lane, held_above(std::sqrt(slowest[lane]), load / mass, size));
+    }
     return mu;
   }
 
@@ -75,8 +84,8 @@ class BatchStart {
   }
   void find_accelerations(BatchState& state) {
     read(state);
-    projector_.prepare(r_, held_above());
     mechanism_.external(state.t, m_, Q_);
+    projector_.prepare(r_, find_held_above(state));
     for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i)
       for (int k = 0; k < 3; ++k) state.a[i][k] = Q_[i][k] * mechanism_.bodies[i].over_mass[k];
     for (int pass = 0; pass < kClosing; ++pass) {
@@ -97,7 +106,10 @@ class BatchStart {
   void move_onto_gaps(BatchState& state) {
     for (int pass = 0; pass < kClosing; ++pass) {
       read(state);
-      if (pass == 0) projector_.prepare(r_, held_above());
+      if (pass == 0) {
+        mechanism_.external(state.t, m_, Q_);
+        projector_.prepare(r_, find_held_above(state));
+      }
       for (std::size_t j = 0; j < r_.size(); ++j)
         for (int k = 0; k < 3; ++k) wanted_[j][k] = state.gap[j][k] - r_[j].gap[k];
       projector_.close(wanted_, state.q);

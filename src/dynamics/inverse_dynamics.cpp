@@ -40,6 +40,16 @@ bool drags(const BasicJointData<S>& joint) {
 }  // namespace
 
 template <class S>
+double held_above(const BasicSystem<S>& system, double lowest, const VecsOf<S>& loads, const std::vector<typename S::Coordinates>& q) {
+  double load = 0, mass = 0;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    load += loads[i].template head<S::kDim>().norm();
+    mass += system.bodies[i].mass[0];
+  }
+  return held_above(lowest, load / mass, std::max(largest_coordinate(q), system.largest_radius_of_gyration()));
+}
+
+template <class S>
 double lowest_own_frequency(const BasicSystem<S>& system, const BasicJointData<S>& joint, const BasicJointKinematics<S>& r, const typename S::Vec* moved) {
   typename S::Vec k = joint.law.engaged_stiffness();
   if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r.gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge in contact
@@ -210,10 +220,10 @@ bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
   find_kinematics(state);
   set_linearized_gaps_from_bodies(state);
   const VecsOf<S>* moved = moved_.empty() ? nullptr : &moved_;
-  const double mu = kHeldAbove * slowest_joint(system_, r_, moved);
+  system_.external(state.t, m_, Q_);
+  const double mu = held_above(system_, slowest_joint(system_, r_, moved), Q_, state.q);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
   if (!projector_.prepare(r_, mu, state.gap, state.gap_rate, moved)) return false;
-  system_.external(state.t, m_, Q_);
   push_by_friction(state);
   state.a = Q_;
   if (moved) push_by_laws(state);
@@ -321,7 +331,8 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   std::optional<BasicGapProjector<S>> holding;
   if (firm) holding.emplace(*firm);
   BasicGapProjector<S>& projector = holding ? *holding : projector_;
-  const double mu = kHeldAbove * slowest_joint(system_, r_);
+  system_.external(state.t, m_, Q_);
+  const double mu = held_above(system_, slowest_joint(system_, r_), Q_, state.q);
   VecsOf<S> held = held_components(system_), gap = state.gap;
   for (std::size_t j = 0; j < released_.size(); ++j) held[j] = held[j].cwiseProduct(S::Vec::Ones() - released_[j]);
   for (const int j : apart_now) gap[j] = r_[j].gap;
@@ -446,6 +457,8 @@ void BasicInverseDynamics<S>::set_linearized_gaps_from_bodies(BasicState<S>& sta
   }
 }
 
+template double held_above<Planar>(const System& system, double lowest, const Vecs& loads, const Vecs& q);
+PINTLE_IN_SPACE(template double held_above<Spatial>(const BasicSystem<Spatial>& system, double lowest, const VecsOf<Spatial>& loads, const std::vector<Spatial::Coordinates>& q);)
 template double lowest_own_frequency<Planar>(const System& system, const JointData& joint, const JointKinematics& r, const Planar::Vec* moved);
 PINTLE_IN_SPACE(template double lowest_own_frequency<Spatial>(const BasicSystem<Spatial>& system, const BasicJointData<Spatial>& joint, const BasicJointKinematics<Spatial>& r, const Spatial::Vec* moved);)
 template bool is_in_play<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);

@@ -2,6 +2,8 @@
 // and 5.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +16,11 @@ namespace pintle {
 /// The frequency above which modes are held, as a fraction of the lowest frequency of any joint by itself: chains of joints
 /// and lever ratios make modes a hundred times slower than that.
 inline constexpr double kHeldAbove = 5e-4;
+/// The same as a multiple of the rate at which the loads set the mechanism in motion: slower modes are part of its motion. Redundant joints with a misfit give such
+/// modes to motions that would be free without it, and the misfit would drive them far.
+inline constexpr double kHeldAboveMotion = 2;
+/// Upper limit on that frequency, as a fraction of the lowest of any joint by itself: however soft a joint is, it carries the loads of its own bodies.
+inline constexpr double kHeldAtMost = 0.01;
 /// Lower limit on the rounds of friction and reactions at a start; each reduces the error by the coefficient of friction times a lever ratio.
 /// With half as many the test FrictionCircles takes more steps than it may.
 inline constexpr int kFrictionRounds = 4;
@@ -32,6 +39,14 @@ struct BasicEffectiveMasses {
   VecsOf<S> alone;   // of the joint's own two bodies alone; 0 where they do not move the gap
 };
 using EffectiveMasses = BasicEffectiveMasses<Planar>;
+
+/// The frequency above which modes are held [rad/s], if `lowest` is the lowest of any joint by itself, and the loads would accelerate the mechanism
+/// of this size [m] with `acceleration` [m/s^2] if nothing held it. theory/assembly section 3.
+inline double held_above(double lowest, double acceleration, double size) {
+  return std::clamp(kHeldAboveMotion * std::sqrt(acceleration / size), kHeldAbove * lowest, kHeldAtMost * lowest);
+}
+template <class S>
+double held_above(const BasicSystem<S>& system, double lowest, const VecsOf<S>& loads, const std::vector<typename S::Coordinates>& q);
 
 /// The lowest frequency that the stiffness of a joint gives to its two bodies, if nothing else holds them (only in components that are not 0 in `moved`, if
 /// given) [rad/s]; infinity where it has no stiffness.

@@ -38,7 +38,7 @@ double slowest_joint(const TreeInstant& at) {
 bool TreeInverseDynamics::prepare(const TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.find_matrices();
-  const double mu = kHeldAbove * slowest_joint(at_);
+  const double mu = held_above(at_.system(), slowest_joint(at_), at_.Q(), at_.pose().q);
   return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state, TreeProjector::Laws::kHolding);
 }
 
