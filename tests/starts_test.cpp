@@ -306,6 +306,19 @@ TEST(Starts, APreloadTurnsNoBodyManyTimes) {
   EXPECT_NEAR(run.joints.at(2).peak, 3.4713, 0.03) << run.joints.at(2).name;  // with ideal joints
 }
 
+// A misfit of 0.2 mm makes the parallelogram's motion a mode of 1 rad/s. The start followed the misfit along it, 25 mm far (in relative coordinates half a metre), to joint forces of
+// 10 kN, and took half of the crank's spin.
+TEST(Starts, AMisfitOfRedundantCranksMovesThemNoFurther) {
+  for (const char* equations : {"newtonian", "relative"}) {
+    const Trajectory run = completed(test_model("parallelogram_of_three_cranks", {std::string("simulate.equations=") + equations}));
+    EXPECT_NEAR(value(run, 0, "body.coupler.x"), 1, 2e-4) << equations;
+    EXPECT_NEAR(value(run, 0, "body.coupler.y"), 0.5, 2e-6) << equations;
+    EXPECT_NEAR(value(run, 0, "body.a.spin"), 3, 0.4) << equations;
+    for (const char* joint : {"A.on_a", "B.on_b", "C.on_c", "D.on_coupler", "E.on_coupler", "F.on_coupler"})
+      for (const char* component : {".fx[world]", ".fy[world]"}) EXPECT_LT(std::abs(value(run, 0, std::string("joint.") + joint + component)), 50) << joint;
+  }
+}
+
 // The reaction of a rod that slides on its tip includes the friction of its slip: m g/(1 + 3 cos^2 + 3 mu sin cos).
 TEST(Starts, ATipThatSlidesRubsFromTheStartOn) {
   for (const double friction : {0.0, 0.2, 0.5}) {

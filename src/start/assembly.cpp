@@ -34,6 +34,8 @@ bool stands_apart(const JointData& joint, const S::Vec& gap, double size) {
   return true;
 }
 
+constexpr double kOpenMotion = 0.1;  // fraction of the gap rates' squares: two passes leave more of those that go with the motion, and a millionth of others
+
 // The velocities nearest to the stated ones, in the mass norm, that keep every gap of the joints that are not apart constant (servos follow
 // their targets). Unstated velocities follow. Multiplier iteration, theory/assembly Eqs. (2.1)-(2.3).
 void assemble_velocities(const Model& model, const System& system, const Vecs& q, Vecs& v) {
@@ -64,6 +66,7 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   if (!equations.prepare(r, joint_weight, body_weight)) return;
   Vecs target = v, multiplier(r.size(), S::Vec::Zero()), x = v;
   Vecs wanted(r.size()), rhs;
+  std::array<double, 2> open_before{};  // the gap rates' squares times the joints' weights, in the last two passes
   for (int iteration = 0; iteration < 60; ++iteration) {
     for (std::size_t j = 0; j < r.size(); ++j) wanted[j] = -r[j].rate + multiplier[j];  // at rest a servo's rate is minus its target's
     rhs = equations.pull(r, joint_weight, wanted);
@@ -77,12 +80,16 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
         if (!(k < 2 ? model.bodies[i].velocity.has_value() : model.bodies[i].spin.has_value())) target[i][k] = next[i][k];
     }
     x = next;
+    double open = 0;
     for (std::size_t j = 0; j < r.size(); ++j) {
       S::Vec rate = r[j].rate;
       add_gap(system.joints[j].at, r[j], x, rate);
       multiplier[j] -= rate;
+      open += joint_weight[j].dot(rate.cwiseAbs2());
     }
-    if (change < 1e-15 * size) break;
+    // What no pass closes is the motion itself: a misfit of redundant joints moves their gaps a little along with it.
+    if (change < 1e-15 * size || (iteration > 2 && open > kOpenMotion * open_before[1])) break;
+    open_before = {open, open_before[0]};
   }
   v = x;
 }
