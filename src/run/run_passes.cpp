@@ -84,6 +84,7 @@ class Passes {
     feeder_note_ = energy.note_on_feeder();
     turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     last_ = std::move(done);
+    if (last_.ended == Ended::kRunaway) last_.scale = {};  // measured by its loads, the next pass would step over the growth
     return complete;
   }
 

@@ -180,7 +180,12 @@ Assembly start_as_asked(const Model& model, double known_span) {
   System system = build_system(model);
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, std::move(system), known_span);
   const JointTree tree(system);
-  Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system, known_span) : start_over_tree(model, system);
+  Assembly assembly = start_of_free_bodies(model, with_stiff_tree(system, tree), known_span);
+  if (!tree.all_free()) {
+    for (int j = 0; j < system.n_joints(); ++j)
+      if (tree.in_tree(j)) assembly.system.joints[j].law = system.joints[j].law;
+    convert_to_tree(assembly.system, is_preloaded(model.simulate.start), assembly.state);
+  }
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
   note_lost_laws(system, [&tree](int j) { return tree.in_tree(j); }, assembly.notes);
   return assembly;

@@ -1,13 +1,16 @@
-// The state that a run over a joint tree starts from. theory/tree section 8.
+// The start of a run over a joint tree is that of free bodies with very stiff joints in the tree, in the tree's coordinates. theory/tree section 8.
 #pragma once
 
-#include "start/assembly.h"
+#include "system/joint_tree.h"
+#include "system/state.h"
 
 namespace pintle {
 
-/// Assembles a copy of `system`, which build_system has made from `model`, with very stiff laws for the tree's joints. Converts
-/// positions and rates into the tree's coordinates and, for start = "assembled", puts the joints that stay laws on their slow motion.
-/// The returned assembly has the joints' own laws again.
-Assembly start_over_tree(const Model& model, const System& system);
+/// The same system with stiff laws for the tree's joints, whose deflection is negligible.
+System with_stiff_tree(System system, const JointTree& tree);
+
+/// Replaces a start of free bodies by that in the coordinates of the joint tree of `system`. If it is `preloaded`, the laws keep its gaps and what goes with
+/// them; otherwise they have the gaps of the bodies as the tree places them.
+void convert_to_tree(const System& system, bool preloaded, State& state);
 
 }  // namespace pintle
