@@ -13,11 +13,11 @@ function(pintle_sources out folder)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# What nearly every source of a room reads is parsed once. Three rooms own what is shared by those after them: space, for laws to linalg;
+# What nearly every source of a room reads is parsed once. Three rooms own what is shared by those after them: space, for linalg to joints;
 # system, with the mechanism itself, for integrators to live; results, for what else is quick to build. No source relies on it: the
 # studio's kernel is compiled without.
 function(pintle_precompile name quick)
-  set(of_space space laws joints linalg)
+  set(of_space space linalg laws joints)
   if(quick)
     set(owner results)
   elseif(name IN_LIST of_space)

@@ -41,7 +41,8 @@ struct BasicEffectiveMasses {
 using EffectiveMasses = BasicEffectiveMasses<Planar>;
 
 /// The frequency above which modes are held [rad/s], if `lowest` is the lowest of any joint by itself, and the loads would accelerate the mechanism
-/// of this size [m] with `acceleration` [m/s^2] if nothing held it. theory/assembly section 3.
+/// of this size [m] with `acceleration` [m/s^2] if nothing held it. The second finds both: its size is the largest distance of a body from the first, or radius of
+/// gyration. theory/assembly section 3.
 inline double held_above(double lowest, double acceleration, double size) {
   return std::clamp(kHeldAboveMotion * std::sqrt(acceleration / size), kHeldAbove * lowest, kHeldAtMost * lowest);
 }

@@ -57,7 +57,7 @@ void TreeAugmented::find_law_forces(TreeState& state) {
 // theory/penalty Eq. (5.4), at the current instant.
 bool TreeAugmented::factorize() {
   at_.find_matrices();
-  if (!mass_.compute(at_.H())) return false;
+  const bool has_mass = mass_.compute(at_.H());
   const auto n = static_cast<Index>(rows_.size());
   A_.resize(n, tree_->n());
   for (Index i = 0; i < n; ++i) A_.row(i) = at_.A().row(index(rows_[static_cast<std::size_t>(i)]));
@@ -66,7 +66,7 @@ bool TreeAugmented::factorize() {
   scale_ = N.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   N = scale_.asDiagonal() * N * scale_.asDiagonal();
   N.diagonal().array() += kProjection;
-  return n == 0 || rows_matrix_.compute(N);
+  return (n == 0 || rows_matrix_.compute(N)) && has_mass;
 }
 
 Eigen::VectorXd TreeAugmented::reactions_for(const Vector& missing) const {
