@@ -18,9 +18,9 @@ namespace pintle {
 inline constexpr double kHeldAbove = 5e-4;
 /// The same as a multiple of the rate at which the loads set the mechanism in motion: slower modes are part of its motion. Redundant joints with a misfit give such
 /// modes to motions that would be free without it, and the misfit would drive them far.
-inline constexpr double kHeldAboveMotion = 1;
+inline constexpr double kHeldAboveMotion = 2;
 /// Upper limit on that frequency, as a fraction of the lowest of any joint by itself: however soft a joint is, it carries the loads of its own bodies.
-inline constexpr double kHeldAtMost = 0.01;
+inline constexpr double kHeldAtMost = 0.002;
 /// Lower limit on the rounds of friction and reactions at a start; each reduces the error by the coefficient of friction times a lever ratio.
 /// With half as many the test FrictionCircles takes more steps than it may.
 inline constexpr int kFrictionRounds = 4;
