@@ -65,12 +65,12 @@ class BatchStart {
     }
     VariantLanes mu;
     for (int lane = 0; lane < kVariantLanes; ++lane) {
-      double load = 0, mass = 0, size = 0;
+      double load = 0, mass = 0, size = 1e-3;
       for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i) {
         const VariantVec& over = mechanism_.bodies[i].over_mass;
         load += std::hypot(Q_[i][0][lane], Q_[i][1][lane]);
         mass += 1 / over[0][lane];
-        size = std::max({size, std::sqrt(over[0][lane] / over[2][lane]), std::hypot(state.q[i][0][lane] - state.q[0][0][lane], state.q[i][1][lane] - state.q[0][1][lane])});
+        size = std::max({size, std::abs(state.q[i][0][lane]), std::abs(state.q[i][1][lane]), std::sqrt(over[0][lane] / over[2][lane])});
       }
       mu.set(lane, held_above(std::sqrt(slowest[lane]), load / mass, size));
     }

@@ -41,13 +41,12 @@ bool drags(const BasicJointData<S>& joint) {
 
 template <class S>
 double held_above(const BasicSystem<S>& system, double lowest, const VecsOf<S>& loads, const std::vector<typename S::Coordinates>& q) {
-  double load = 0, mass = 0, size = system.largest_radius_of_gyration();
+  double load = 0, mass = 0;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     load += loads[i].template head<S::kDim>().norm();
     mass += system.bodies[i].mass[0];
-    size = std::max(size, S::difference(q[0], q[i]).template head<S::kDim>().norm());
   }
-  return held_above(lowest, load / mass, size);
+  return held_above(lowest, load / mass, std::max(largest_coordinate(q), system.largest_radius_of_gyration()));
 }
 
 template <class S>

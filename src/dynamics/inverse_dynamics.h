@@ -20,7 +20,7 @@ inline constexpr double kHeldAbove = 5e-4;
 /// modes to motions that would be free without it, and the misfit would drive them far.
 inline constexpr double kHeldAboveMotion = 2;
 /// Upper limit on that frequency, as a fraction of the lowest of any joint by itself: however soft a joint is, it carries the loads of its own bodies.
-inline constexpr double kHeldAtMost = 0.002;
+inline constexpr double kHeldAtMost = 0.01;
 /// Lower limit on the rounds of friction and reactions at a start; each reduces the error by the coefficient of friction times a lever ratio.
 /// With half as many the test FrictionCircles takes more steps than it may.
 inline constexpr int kFrictionRounds = 4;
@@ -41,8 +41,7 @@ struct BasicEffectiveMasses {
 using EffectiveMasses = BasicEffectiveMasses<Planar>;
 
 /// The frequency above which modes are held [rad/s], if `lowest` is the lowest of any joint by itself, and the loads would accelerate the mechanism
-/// of this size [m] with `acceleration` [m/s^2] if nothing held it. The second finds both: its size is the largest distance of a body from the first, or radius of
-/// gyration. theory/assembly section 3.
+/// of this size [m] with `acceleration` [m/s^2] if nothing held it. theory/assembly section 3.
 inline double held_above(double lowest, double acceleration, double size) {
   return std::clamp(kHeldAboveMotion * std::sqrt(acceleration / size), kHeldAbove * lowest, kHeldAtMost * lowest);
 }
