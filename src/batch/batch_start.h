@@ -43,7 +43,7 @@ class BatchStart {
   void read(const BatchState& state) { PINTLE_BATCH::read(mechanism_, state.t, state.q, state.v, m_, r_); }
 
   // The frequency above which modes are held, under the loads Q_.
-  PINTLE_LANES VariantLanes find_held_above(const BatchState& state) const {
+  PINTLE_LANES VariantLanes holding_frequency(const BatchState& state) const {
     VariantLanes slowest(1e300);
     for (std::size_t j = 0; j < r_.size(); ++j) {
       const BatchJoint& joint = mechanism_.joints[j];
@@ -85,7 +85,7 @@ class BatchStart {
   void find_accelerations(BatchState& state) {
     read(state);
     mechanism_.external(state.t, m_, Q_);
-    projector_.prepare(r_, find_held_above(state));
+    projector_.prepare(r_, holding_frequency(state));
     for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i)
       for (int k = 0; k < 3; ++k) state.a[i][k] = Q_[i][k] * mechanism_.bodies[i].over_mass[k];
     for (int pass = 0; pass < kClosing; ++pass) {
@@ -108,7 +108,7 @@ class BatchStart {
       read(state);
       if (pass == 0) {
         mechanism_.external(state.t, m_, Q_);
-        projector_.prepare(r_, find_held_above(state));
+        projector_.prepare(r_, holding_frequency(state));
       }
       for (std::size_t j = 0; j < r_.size(); ++j)
         for (int k = 0; k < 3; ++k) wanted_[j][k] = state.gap[j][k] - r_[j].gap[k];

@@ -17,9 +17,11 @@ namespace pintle {
 /// and lever ratios make modes a hundred times slower than that.
 inline constexpr double kHeldAbove = 5e-4;
 /// The same as a multiple of the rate at which the loads set the mechanism in motion: slower modes are part of its motion. Redundant joints with a misfit give such
-/// modes to motions that would be free without it, and the misfit would drive them far.
+/// modes to motions that would be free without it, and the misfit would drive them far. With half of it the relative coordinates of a parallelogram of three cranks, one
+/// 0.5 mm out of place, start 5 mm away instead of 0.3 mm; twice it changes these starts by 0.02 mm.
 inline constexpr double kHeldAboveMotion = 2;
 /// Upper limit on that frequency, as a fraction of the lowest of any joint by itself: however soft a joint is, it carries the loads of its own bodies.
+/// With twice it conveyor_belt takes half as many steps again; with a fifth the misfit of pinned plates moves them (test RelativeArm).
 inline constexpr double kHeldAtMost = 0.01;
 /// Lower limit on the rounds of friction and reactions at a start; each reduces the error by the coefficient of friction times a lever ratio.
 /// With half as many the test FrictionCircles takes more steps than it may.

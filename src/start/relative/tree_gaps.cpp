@@ -31,7 +31,7 @@ double slowest_joint(const TreeInstant& at) {
 
 }  // namespace
 
-void TreeGaps::take_from_bodies(TreeState& state) {
+void TreeGaps::set_gaps_from_bodies(TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.gaps(state.gap);
   at_.rates(state.rate);
@@ -40,7 +40,7 @@ void TreeGaps::take_from_bodies(TreeState& state) {
   state.accel = VectorXd::Zero(state.gap.size());
 }
 
-void TreeGaps::move_bodies(TreeState& state) {
+void TreeGaps::move_onto_gaps(TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.find_matrices();
   const double mu = held_above(at_.system(), slowest_joint(at_), at_.Q(), at_.pose().q);

@@ -11,9 +11,9 @@ class TreeGaps {
   TreeGaps(const System& system, const JointTree& tree) : at_(system, tree) {}
 
   /// Sets the gaps, rates and states of the laws to those that the bodies have at t, y and u.
-  void take_from_bodies(TreeState& state);
+  void set_gaps_from_bodies(TreeState& state);
   /// Moves y and u so that the bodies have the gaps and rates of the state, except what no motion can close.
-  void move_bodies(TreeState& state);
+  void move_onto_gaps(TreeState& state);
   /// Finds the actual forces of the laws at the state's gaps, and the corresponding accelerations. Gaps without stiffness,
   /// and those that no motion can close, are taken from the bodies.
   void balance(TreeState& state);

@@ -36,7 +36,7 @@ void convert_to_tree(const System& system, bool preloaded, State& state) {
   TreeState start;
   TreeGaps gaps(system, tree);
   read_coordinates(tree, state, start);
-  gaps.take_from_bodies(start);
+  gaps.set_gaps_from_bodies(start);
   if (preloaded) {
     for (std::size_t l = 0; l < tree.laws().size(); ++l) {
       const auto j = static_cast<std::size_t>(tree.laws()[l]);
@@ -47,7 +47,7 @@ void convert_to_tree(const System& system, bool preloaded, State& state) {
       start.force.segment<3>(i) = state.force[j];
     }
     start.law_state = state.law_state;
-    gaps.move_bodies(start);
+    gaps.move_onto_gaps(start);
   }
   gaps.balance(start);
   gaps.instant().place(start.t, start.y, start.u);
