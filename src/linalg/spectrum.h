@@ -12,14 +12,12 @@ namespace pintle {
 
 template <int N>
 struct Spectrum {
-  using Register = typename Lanes<N>::Register;
-  static constexpr int kWidth = Lanes<N>::kWidth;
   Lanes<N> x;
 
   Spectrum() = default;
   PINTLE_LANES explicit Spectrum(const Lanes<N>& lanes) : x(lanes) {}
   PINTLE_LANES explicit Spectrum(double real) {
-    for (int i = 0; i < kWidth; ++i) x.v[i] = i + 1 < N && i % 2 == 1 ? 0 : real;
+    for (int i = 0; i < N; ++i) x.set(i, i + 1 < N && i % 2 == 1 ? 0 : real);
   }
 
   PINTLE_LANES Spectrum& operator+=(const Spectrum& b) { x += b.x; return *this; }
@@ -30,40 +28,63 @@ struct Spectrum {
   PINTLE_LANES friend Spectrum operator*(double f, const Spectrum& a) { return Spectrum(f * a.x); }
   // (re re) (re im) + (im im) (-im re); without an imaginary part the second term is zero.
   PINTLE_LANES friend Spectrum operator*(const Spectrum& a, const Spectrum& b) {
-    return Spectrum(Lanes<N>{real_parts(a.x.v) * b.x.v + imaginary_parts(a.x.v) * turned(b.x.v)});
+    return Spectrum(Lanes<N>{product(a.x.v, b.x.v)});
   }
   PINTLE_LANES friend Spectrum reciprocal(const Spectrum& a) {
-    const Register u = a.x.v, square = u * u;
-    return Spectrum(Lanes<N>{conjugate(u) / (square + imaginary(swapped(square)))});
+    return Spectrum(Lanes<N>{inverse(a.x.v)});
   }
 
  private:
-  // The lanes of the complex numbers come first, in pairs. The entry at place `from(i)` moves to place i.
-  template <class From, std::size_t... I>
-  PINTLE_LANES static Register rearranged(const Register& a, From, std::index_sequence<I...>) {
-    return __builtin_shufflevector(a, a, From{}(I)...);
+  // One register: complex numbers in the lanes before kReal, a real number in those from there on.
+  template <class R, int kReal>
+  struct Mixed {
+    static constexpr int kLanes = sizeof(R) / sizeof(double);
+    PINTLE_LANES static R product(const R& a, const R& b) {
+      if constexpr (kReal == 0) return a * b;
+      else return real_parts(a) * b + imaginary_parts(a) * (signs(-1, 1, 0) * swapped(b));
+    }
+    PINTLE_LANES static R inverse(const R& a) {
+      const R square = a * a;
+      if constexpr (kReal == 0) return a / square;
+      else return (signs(1, -1, 1) * a) / (square + signs(1, 1, 0) * swapped(square));
+    }
+    // The entry at place `from(i)` moves to place i.
+    template <class From, std::size_t... I>
+    PINTLE_LANES static R rearranged(const R& a, From, std::index_sequence<I...>) {
+      return __builtin_shufflevector(a, a, From{}(static_cast<int>(I))...);
+    }
+    template <class From>
+    PINTLE_LANES static R rearranged(const R& a, From from) {
+      return rearranged(a, from, std::make_index_sequence<kLanes>());
+    }
+    PINTLE_LANES static R real_parts(const R& a) {
+      return rearranged(a, [](int i) constexpr { return i < kReal ? i & ~1 : i; });
+    }
+    PINTLE_LANES static R imaginary_parts(const R& a) {
+      return rearranged(a, [](int i) constexpr { return i < kReal ? i | 1 : i; });
+    }
+    PINTLE_LANES static R swapped(const R& a) {
+      return rearranged(a, [](int i) constexpr { return i < kReal ? i ^ 1 : i; });
+    }
+    PINTLE_LANES static R signs(double re, double im, double real) {
+      R s;
+      for (int i = 0; i < kLanes; ++i) s[i] = i >= kReal ? real : i % 2 == 0 ? re : im;
+      return s;
+    }
+  };
+  template <class R>
+  PINTLE_LANES static R product(const R& a, const R& b) {
+    return Mixed<R, N - 1>::product(a, b);
   }
-  template <class From>
-  PINTLE_LANES static Register rearranged(const Register& a, From from) {
-    return rearranged(a, from, std::make_index_sequence<kWidth>());
+  PINTLE_LANES static EightReals product(const EightReals& a, const EightReals& b) {
+    return {Mixed<FourReals, 4>::product(a.low, b.low), Mixed<FourReals, N - 5>::product(a.high, b.high)};
   }
-  PINTLE_LANES static Register real_parts(const Register& a) {
-    return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i & ~1ul : i; });
+  template <class R>
+  PINTLE_LANES static R inverse(const R& a) {
+    return Mixed<R, N - 1>::inverse(a);
   }
-  PINTLE_LANES static Register imaginary_parts(const Register& a) {
-    return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i | 1 : i; });
-  }
-  // Times the imaginary unit; zero for the real number.
-  PINTLE_LANES static Register turned(const Register& a) { return signs(-1, 1, 0) * swapped(a); }
-  PINTLE_LANES static Register swapped(const Register& a) {
-    return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i ^ 1 : i; });
-  }
-  PINTLE_LANES static Register conjugate(const Register& a) { return signs(1, -1, 1) * a; }
-  PINTLE_LANES static Register imaginary(const Register& a) { return signs(1, 1, 0) * a; }
-  PINTLE_LANES static Register signs(double re, double im, double real) {
-    if constexpr (N == 1) return Register{real, real};
-    else if constexpr (N == 3) return Register{re, im, real, real};
-    else return Register{re, im, re, im, real, real, real, real};
+  PINTLE_LANES static EightReals inverse(const EightReals& a) {
+    return {Mixed<FourReals, 4>::inverse(a.low), Mixed<FourReals, N - 5>::inverse(a.high)};
   }
 };
 

@@ -5,28 +5,9 @@
 
 #include <cmath>
 
-// Code that uses lanes must be inlined into the function compiled for wide registers.
-#define PINTLE_LANES [[gnu::always_inline]] inline
+#include "simd/registers.h"
 
 namespace pintle {
-
-/// The register type with room for N numbers, and that for as many integers.
-template <int N> struct Registers;
-template <> struct Registers<1> {
-  typedef double Reals __attribute__((vector_size(16)));
-  typedef unsigned long long Bits __attribute__((vector_size(16)));
-};
-template <> struct Registers<3> {
-  typedef double Reals __attribute__((vector_size(32)));
-  typedef unsigned long long Bits __attribute__((vector_size(32)));
-};
-template <> struct Registers<4> : Registers<3> {};
-template <> struct Registers<5> {
-  typedef double Reals __attribute__((vector_size(64)));
-  typedef unsigned long long Bits __attribute__((vector_size(64)));
-};
-
-template <> struct Registers<8> : Registers<5> {};
 
 /// Lanes beyond N follow lane N - 1, so that they never overflow on their own.
 template <int N>
@@ -42,14 +23,14 @@ struct Lanes {
   PINTLE_LANES static Lanes all(double x) { return Lanes(x); }
   PINTLE_LANES static Lanes of(const double (&x)[N]) {
     Lanes r = all(x[N - 1]);
-    for (int i = 0; i < N - 1; ++i) r.v[i] = x[i];
+    for (int i = 0; i < N - 1; ++i) set_lane(r.v, i, x[i]);
     return r;
   }
   PINTLE_LANES double operator[](int i) const { return v[i]; }
   PINTLE_LANES void set(int i, double x) {
-    v[i] = x;
+    set_lane(v, i, x);
     if (i == N - 1)
-      for (int k = N; k < kWidth; ++k) v[k] = x;
+      for (int k = N; k < kWidth; ++k) set_lane(v, k, x);
   }
 
   PINTLE_LANES Lanes& operator+=(const Lanes& b) {
@@ -79,20 +60,20 @@ PINTLE_LANES Lanes<N> reciprocal(const Lanes<N>& a) {
 
 template <int N>
 PINTLE_LANES Lanes<N> larger(const Lanes<N>& a, const Lanes<N>& b) {
-  return {b.v > a.v ? b.v : a.v};
+  return {where_less(a.v, b.v, b.v, a.v)};
 }
 template <int N>
 PINTLE_LANES Lanes<N> smaller(const Lanes<N>& a, const Lanes<N>& b) {
-  return {b.v < a.v ? b.v : a.v};
+  return {where_less(b.v, a.v, b.v, a.v)};
 }
 /// x where a is larger than b; elsewhere y.
 template <int N>
 PINTLE_LANES Lanes<N> where_larger(const Lanes<N>& a, const Lanes<N>& b, const Lanes<N>& x, const Lanes<N>& y) {
-  return {a.v > b.v ? x.v : y.v};
+  return {where_less(b.v, a.v, x.v, y.v)};
 }
 template <int N>
 PINTLE_LANES Lanes<N> sizes(const Lanes<N>& a) {
-  return {a.v < -a.v ? -a.v : a.v};
+  return {where_less(a.v, -a.v, -a.v, a.v)};
 }
 
 /// Rows become columns.
@@ -108,8 +89,7 @@ PINTLE_LANES void transpose(Lanes<4> (&rows)[4]) {
 /// The larger of a and the magnitude of b, lane by lane.
 template <int N>
 PINTLE_LANES Lanes<N> larger_size(const Lanes<N>& a, const Lanes<N>& b) {
-  const auto size = b.v < -b.v ? -b.v : b.v;
-  return {size > a.v ? size : a.v};
+  return larger(a, sizes(b));
 }
 
 /// Sine and cosine, to 1.2e-16, of angles up to kLargestAngle. The angle is reduced to an eighth of a turn either side of zero by
@@ -125,7 +105,7 @@ PINTLE_LANES void sine_and_cosine_unchecked(const Lanes<N>& angle, Lanes<N>& sin
   constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: a number added to it loses its fraction
   constexpr double kQuarter = 1.57079632673412561417e+00, kRest = 6.07710050650619224932e-11;
   const Register shifted = x * 6.36619772367581382433e-01 + kRound, quarters = shifted - kRound;
-  const Bits n = (Bits)shifted;
+  const Bits n = bits_of(shifted);
   const Register r = (x - quarters * kQuarter) - quarters * kRest, z = r * r;
   const Register s = r + r * z * (-1.66666666666666324348e-01 +
       z * (8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 +
@@ -135,10 +115,10 @@ PINTLE_LANES void sine_and_cosine_unchecked(const Lanes<N>& angle, Lanes<N>& sin
       z * (-1.38888888888741095749e-03 + z * (2.48015872894767294178e-05 +
       z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11))))));
   const Bits odd = -(n & 1), sign_s = (n & 2) << 62, sign_c = ((n + 1) & 2) << 62;
-  const Bits bits_s = (Bits)s, bits_c = (Bits)c;
+  const Bits bits_s = bits_of(s), bits_c = bits_of(c);
   const Bits out_s = ((bits_c & odd) | (bits_s & ~odd)) ^ sign_s, out_c = ((bits_s & odd) | (bits_c & ~odd)) ^ sign_c;
-  sine.v = (Register)out_s;
-  cosine.v = (Register)out_c;
+  sine.v = reals_of(out_s);
+  cosine.v = reals_of(out_c);
 }
 
 /// Whether a lane is beyond kLargestAngle.
