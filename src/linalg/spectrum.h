@@ -17,7 +17,9 @@ struct Spectrum {
   Spectrum() = default;
   PINTLE_LANES explicit Spectrum(const Lanes<N>& lanes) : x(lanes) {}
   PINTLE_LANES explicit Spectrum(double real) {
-    for (int i = 0; i < N; ++i) x.set(i, i + 1 < N && i % 2 == 1 ? 0 : real);
+    double parts[N];
+    for (int i = 0; i < N; ++i) parts[i] = i + 1 < N && i % 2 == 1 ? 0 : real;
+    x = Lanes<N>::of(parts);
   }
 
   PINTLE_LANES Spectrum& operator+=(const Spectrum& b) { x += b.x; return *this; }

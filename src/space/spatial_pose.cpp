@@ -38,26 +38,29 @@ SpatialRelativePose SpatialRelativePose::between(const S::Motion& A, const S::Fr
   return r;
 }
 
-S::Point SpatialRelativePose::world_couple(const S::Vec& f) const {
-  return pintle::vector_of(map.RF * couple_of(map.n, map.k, f[3], f[4], f[5]));
-}
+S::Point SpatialRelativePose::world_force(const S::Vec& f) const { return pintle::world_force(map, f); }
+S::Point SpatialRelativePose::world_couple(const S::Vec& f) const { return pintle::world_couple(map, f); }
+Eigen::Matrix<double, 12, 12> SpatialRelativePose::geometric(const S::Vec& f) const { return geometric_stiffness(map, f); }
+
+S::Point world_force(const SpatialGapMap<double>& map, const S::Vec& f) { return vector_of(map.RF * Vector3<double>{f[0], f[1], f[2]}); }
+S::Point world_couple(const SpatialGapMap<double>& map, const S::Vec& f) { return vector_of(map.RF * couple_of(map.n, map.k, f[3], f[4], f[5])); }
 
 // Eqs. (3.10), (3.11): the changes of force and couple in world axes, then those of the moments in the bodies' axes.
-Eigen::Matrix<double, 12, 12> SpatialRelativePose::geometric(const S::Vec& f) const {
+Eigen::Matrix<double, 12, 12> geometric_stiffness(const SpatialGapMap<double>& map, const S::Vec& f) {
   const Matrix RA = matrix_of(map.RA), RB = matrix_of(map.RB), RF = matrix_of(map.RF);
   const double x = map.n.x, y = map.n.y, slope = slope_of(map.n.z, map.k);
   Matrix D;
   D << map.k * f[5], 0, f[3] + slope * x * f[5], 0, map.k * f[5], f[4] + slope * y * f[5], -f[3], -f[4], 0;
-  const Matrix pull = crossing(world_force(f)), E = -RF * (D * crossing(pintle::vector_of(map.n))) * RF.transpose();
-  const Matrix b = crossing(pintle::vector_of(map.arm_b));
-  const Matrix of_b = RB.transpose() * (b * pull + crossing(world_couple(f)) + E);
+  const Matrix pull = crossing(world_force(map, f)), E = -RF * (D * crossing(vector_of(map.n))) * RF.transpose();
+  const Matrix b = crossing(vector_of(map.arm_b));
+  const Matrix of_b = RB.transpose() * (b * pull + crossing(world_couple(map, f)) + E);
   const Matrix turned_force = pull * RA, arm = RA.transpose() * pull;
   Eigen::Matrix<double, 12, 12> N = Eigen::Matrix<double, 12, 12>::Zero();
   N.block<3, 3>(0, 3) = turned_force;
   N.block<3, 3>(6, 3) = -turned_force;
   N.block<3, 3>(3, 0) = -arm;
   N.block<3, 3>(3, 6) = arm;
-  N.block<3, 3>(3, 3) = RA.transpose() * (pull * crossing(pintle::vector_of(map.arm_a)) + E) * RA;
+  N.block<3, 3>(3, 3) = RA.transpose() * (pull * crossing(vector_of(map.arm_a)) + E) * RA;
   N.block<3, 3>(3, 9) = -RA.transpose() * (pull * b + E) * RB;
   N.block<3, 3>(9, 3) = -of_b * RA;
   N.block<3, 3>(9, 9) = of_b * RB;

@@ -264,6 +264,12 @@ struct SpatialGapMap {
   }
 };
 
+/// The force in world axes [N] of z-components f (conjugate to z, on B), and their couple about M's origin [N*m].
+Spatial::Point world_force(const SpatialGapMap<double>& map, const Spatial::Vec& f);
+Spatial::Point world_couple(const SpatialGapMap<double>& map, const Spatial::Vec& f);
+/// d(GA' f)/dq and d(GB' f)/dq at constant f: the geometric stiffness, 12 x 12 over (qA, qB), in the bodies' axes. Eqs. (3.9)-(3.11).
+Eigen::Matrix<double, 12, 12> geometric_stiffness(const SpatialGapMap<double>& map, const Spatial::Vec& f);
+
 /// z and its derivatives. Lengths in F's axes [m], tilts [-], turn [rad].
 ///   z' = GA vA + GB vB,   z'' = GA aA + GB aB + bias   with GA = dz/dqA and GB = dz/dqB, by increments in the bodies' axes
 struct SpatialRelativePose {
@@ -278,11 +284,9 @@ struct SpatialRelativePose {
 
   static SpatialRelativePose between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M);
 
-  /// The force in world axes [N] of z-components f (conjugate to z, on B).
-  S::Point world_force(const S::Vec& f) const { return pintle::vector_of(map.RF * Vector3<double>{f[0], f[1], f[2]}); }
-  /// The couple of f on B about M's origin in world axes [N*m].
+  S::Point world_force(const S::Vec& f) const;
   S::Point world_couple(const S::Vec& f) const;
-  /// d(GA' f)/dq and d(GB' f)/dq at constant f: the geometric stiffness, 12 x 12 over (qA, qB), in the bodies' axes. Eqs. (3.9)-(3.11).
+  /// The geometric stiffness at f.
   Eigen::Matrix<double, 12, 12> geometric(const S::Vec& f) const;
   /// d(rate)/dq over (qA, qB), 6 x 12, for the motions from which the pose was made. Eqs. (3.12), (3.13).
   Eigen::Matrix<double, 6, 12> rate_gradient(const S::Motion& A, const S::Motion& B) const;

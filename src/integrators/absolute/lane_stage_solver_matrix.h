@@ -55,17 +55,15 @@ void LaneStageSolver<S, N>::linearize(const BasicState<S>& begin, Joint& joint, 
   }
   typename S::Vec force;
   for (int k = 0; k < S::kDof; ++k) force[k] = joint.force[k][i];
-  if (S::kCurved || joint.functions > 0) {
+  if (joint.functions > 0) {
     X weight[S::kDof * S::kDof];
     for (int k = 0; k < S::kDof * S::kDof; ++k) weight[k] = k % (S::kDof + 1) == 0 ? joint.k[k / (S::kDof + 1)] * one + joint.c[k / (S::kDof + 1)] * mu_ : X(0.0);
     add_joint(joint, weight, force);
     return;
   }
-  if constexpr (!S::kCurved) {
-    X w[S::kDof];
-    for (int k = 0; k < S::kDof; ++k) w[k] = joint.k[k] * one + joint.c[k] * mu_;
-    PoseBlocks<S, X>::of(joint.frozen, w, force).add_to(lu_, body_or_ground(joint.a), body_or_ground(joint.b), joint.slot);
-  }
+  X w[S::kDof];
+  for (int k = 0; k < S::kDof; ++k) w[k] = joint.k[k] * one + joint.c[k] * mu_;
+  PoseBlocks<S, X>::of(joint.frozen, w, force).add_to(lu_, body_or_ground(joint.a), body_or_ground(joint.b), joint.slot);
 }
 
 template <class S, int N>

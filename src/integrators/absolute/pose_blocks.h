@@ -2,9 +2,6 @@
 // the law has a spring and a damper in each component.
 #pragma once
 
-#include <tuple>
-#include <type_traits>
-
 #include "linalg/block_lu.h"
 #include "system/system.h"
 
@@ -18,69 +15,11 @@ Symmetry symmetry_of_joints(const BasicSystem<S>& system) {
   return Symmetry::kSymmetric;
 }
 
-/// G' w G of a pair of bodies: w holds the stiffness of each component.
+/// G' w G of the pair of bodies of a joint whose gap is their relative pose: w holds the stiffness of each component.
 template <class S, class T>
-struct PoseBlocks {
-  static constexpr int n = S::kDof;
-  Block<T, n> aa, ab, ba, bb;
+struct PoseBlocks;
 
-  template <class Map>
-  PINTLE_LANES static PoseBlocks of(const Map& g, const T* w) {
-    using Real = std::decay_t<decltype(g.k)>;
-    Real G[2][n][n];  // of each body, by columns
-    for (int body = 0; body < 2; ++body)
-      for (int c = 0; c < n; ++c) {
-        Real x[2][n];
-        for (auto& of_body : x)
-          for (Real& y : of_body) y = Real(0.0);
-        x[body][c] = Real(1.0);
-        g.gather(x[0], x[1], G[body][c]);
-      }
-    PoseBlocks k;
-    for (const auto& [block, row, column] : {std::tuple(&k.aa, 0, 0), std::tuple(&k.ab, 0, 1), std::tuple(&k.ba, 1, 0), std::tuple(&k.bb, 1, 1)})
-      for (int c = 0; c < n; ++c) {
-        T force[n];
-        for (int i = 0; i < n; ++i) force[i] = G[column][c][i] * w[i];
-        for (int r = 0; r < n; ++r) {
-          T sum = G[row][r][0] * force[0];
-          for (int i = 1; i < n; ++i) sum += G[row][r][i] * force[i];
-          (*block)(r, c) = sum;
-        }
-      }
-    return k;
-  }
-
-  /// The blocks of one lane.
-  PINTLE_LANES PoseBlocks<S, double> lane(int i) const {
-    PoseBlocks<S, double> one;
-    for (int r = 0; r < n; ++r)
-      for (int c = 0; c < n; ++c) {
-        one.aa(r, c) = aa(r, c)[i];
-        one.ab(r, c) = ab(r, c)[i];
-        one.ba(r, c) = ba(r, c)[i];
-        one.bb(r, c) = bb(r, c)[i];
-      }
-    return one;
-  }
-  /// Adds it to the blocks of bodies a and b, which may be the ground.
-  PINTLE_LANES void add_to(BlockLu<T, n>& lu, int a, int b, BlockPattern::Slot slot) const {
-    if (a != kGround) add(lu.diagonal(a), aa);
-    if (b != kGround) add(lu.diagonal(b), bb);
-    if (a == kGround || b == kGround) return;
-    if (lu.has(slot)) add(lu.off_diagonal(slot), ab);
-    slot.upper = !slot.upper;
-    if (lu.has(slot)) add(lu.off_diagonal(slot), ba);
-  }
-  PINTLE_LANES void add_to(BlockLu<T, n>& lu, const BasicPlacement<S>& at, BlockPattern::Slot slot) const { add_to(lu, at.a, at.b, slot); }
-
- private:
-  PINTLE_LANES static void add(Block<T, n>& to, const Block<T, n>& k) {
-    for (int r = 0; r < n; ++r)
-      for (int c = 0; c < n; ++c) to(r, c) += k(r, c);
-  }
-};
-
-/// The same in the plane, minus N, the geometric stiffness at the joint's force. In world axes w is a symmetric stiffness (xx, xy,
+/// In the plane. In world axes w is a symmetric stiffness (xx, xy,
 /// yy) at the joint's point, which acts at the arms of both bodies, and a rotational stiffness. joints Eqs. (2.5), (2.6), (2.9).
 template <class T>
 struct PoseBlocks<Planar, T> {
@@ -142,6 +81,114 @@ struct PoseBlocks<Planar, T> {
     block(0, 0) -= xx; block(0, 1) -= xy; block(0, 2) -= x;
     block(1, 0) -= xy; block(1, 1) -= yy; block(1, 2) -= y;
     block(2, 0) -= down_x; block(2, 1) -= down_y; block(2, 2) -= ba;
+  }
+};
+
+/// The same in space. The rows of G of a joint's force are its axes in the world and their moments about both centres, those of its couple have moments
+/// alone. space Eqs. (3.7)-(3.11).
+template <class T>
+struct PoseBlocks<Spatial, T> {
+  static constexpr int n = Spatial::kDof;
+  Block<T, n> aa, ab, ba, bb;
+
+  template <class Real>
+  PINTLE_LANES static PoseBlocks of(const SpatialGapMap<Real>& g, const T* w) {
+    const Real zero(0.0), one(1.0);
+    const Matrix3<Real>& F = g.RF;
+    const Vector3<Real> axis[3] = {{F.xx, F.yx, F.zx}, {F.xy, F.yy, F.zy}, {F.xz, F.yz, F.zz}};
+    const Vector3<Real> turning[3] = {F * Vector3<Real>{g.n.z, zero, -g.n.x}, F * Vector3<Real>{zero, g.n.z, -g.n.y}, F * Vector3<Real>{g.k * g.n.x, g.k * g.n.y, one}};
+    PoseBlocks k;
+    for (Block<T, n>* block : {&k.aa, &k.ab, &k.ba, &k.bb})
+      for (int r = 0; r < n; ++r)
+        for (int c = 0; c < n; ++c) (*block)(r, c) = T(0.0);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3<Real> on_a = turned_back(g.RA, cross(g.arm_a, axis[i])), on_b = turned_back(g.RB, cross(g.arm_b, axis[i]));
+      const Vector3<T> force = scaled(axis[i], w[i]), moment_a = scaled(on_a, w[i]), moment_b = scaled(on_b, w[i]);
+      add_product(k.bb, 0, 0, axis[i], force);
+      add_product(k.bb, 0, 3, axis[i], moment_b);
+      add_product(k.bb, 3, 3, on_b, moment_b);
+      add_product(k.aa, 0, 3, axis[i], moment_a);
+      add_product(k.aa, 3, 3, on_a, moment_a);
+      add_product(k.ab, 3, 3, on_a, moment_b);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Vector3<Real> on_a = turned_back(g.RA, turning[i]), on_b = turned_back(g.RB, turning[i]);
+      const Vector3<T> moment_a = scaled(on_a, w[3 + i]), moment_b = scaled(on_b, w[3 + i]);
+      add_product(k.bb, 3, 3, on_b, moment_b);
+      add_product(k.aa, 3, 3, on_a, moment_a);
+      add_product(k.ab, 3, 3, on_a, moment_b);
+    }
+    k.complete();
+    return k;
+  }
+  /// Minus N, at a force [N, N, N, N*m, N*m, N*m].
+  PINTLE_LANES static PoseBlocks of(const SpatialGapMap<double>& g, const T* w, const Spatial::Vec& force) {
+    PoseBlocks k = of(g, w);
+    const auto N = geometric_stiffness(g, force);
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        k.aa(r, c) -= T(N(r, c));
+        k.ab(r, c) -= T(N(r, n + c));
+        k.ba(r, c) -= T(N(n + r, c));
+        k.bb(r, c) -= T(N(n + r, n + c));
+      }
+    return k;
+  }
+
+  /// The blocks of one lane.
+  PINTLE_LANES PoseBlocks<Spatial, double> lane(int i) const {
+    PoseBlocks<Spatial, double> one;
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        one.aa(r, c) = aa(r, c)[i];
+        one.ab(r, c) = ab(r, c)[i];
+        one.ba(r, c) = ba(r, c)[i];
+        one.bb(r, c) = bb(r, c)[i];
+      }
+    return one;
+  }
+  /// Adds it to the blocks of bodies a and b, which may be the ground.
+  PINTLE_LANES void add_to(BlockLu<T, n>& lu, int a, int b, BlockPattern::Slot slot) const {
+    if (a != kGround) add(lu.diagonal(a), aa);
+    if (b != kGround) add(lu.diagonal(b), bb);
+    if (a == kGround || b == kGround) return;
+    if (lu.has(slot)) add(lu.off_diagonal(slot), ab);
+    slot.upper = !slot.upper;
+    if (lu.has(slot)) add(lu.off_diagonal(slot), ba);
+  }
+  PINTLE_LANES void add_to(BlockLu<T, n>& lu, const BasicPlacement<Spatial>& at, BlockPattern::Slot slot) const { add_to(lu, at.a, at.b, slot); }
+
+ private:
+  template <class Real>
+  PINTLE_LANES static Vector3<T> scaled(const Vector3<Real>& x, const T& by) {
+    return {x.x * by, x.y * by, x.z * by};
+  }
+  // block += x y', from that row and column on.
+  template <class Real>
+  PINTLE_LANES static void add_product(Block<T, n>& block, int row, int column, const Vector3<Real>& x, const Vector3<T>& y) {
+    const Real* of_row[3] = {&x.x, &x.y, &x.z};
+    const T* of_column[3] = {&y.x, &y.y, &y.z};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) block(row + r, column + c) += *of_row[r] * *of_column[c];
+  }
+  // The first body has the opposite of the force; every block is symmetric or the other's transpose.
+  PINTLE_LANES void complete() {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) {
+        aa(r, c) = bb(r, c);
+        bb(3 + c, r) = bb(r, 3 + c);
+        aa(3 + c, r) = aa(r, 3 + c);
+        ab(r, c) = -bb(r, c);
+        ab(r, 3 + c) = -bb(r, 3 + c);
+        ab(3 + r, c) = -aa(c, 3 + r);
+        ab(3 + r, 3 + c) = -ab(3 + r, 3 + c);
+      }
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) ba(c, r) = ab(r, c);
+  }
+  PINTLE_LANES static void add(Block<T, n>& to, const Block<T, n>& k) {
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) to(r, c) += k(r, c);
   }
 };
 
