@@ -1,37 +1,10 @@
 #include "run/record/duty_tally.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pintle {
 namespace {
-
-/// Integral of the absolute value of the parabola through three equidistant values, in units of their distance. It is split where the sign changes.
-double integral_of_size(double before, double here, double after) {
-  const double slope = 0.5 * (after - before), bend = 0.5 * (before - 2 * here + after);  // here + slope x + bend x^2
-  const double q = -0.5 * (slope + std::copysign(std::sqrt(std::max(slope * slope - 4 * bend * here, 0.0)), slope));
-  const auto inside = [](double numerator, double denominator) {
-    const double x = numerator / denominator;
-    return x > -1 && x < 1 ? x : -1;
-  };
-  std::array<double, 4> ends{-1, inside(q, bend), inside(here, q), 1};
-  std::sort(ends.begin(), ends.end());
-  const auto antiderivative = [&](double x) { return x * (here + x * (0.5 * slope + x * bend / 3)); };
-  double sum = 0;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) sum += std::abs(antiderivative(ends[i + 1]) - antiderivative(ends[i]));
-  return sum;
-}
-
-// Integral of the absolute value of f, which may change its sign: Simpson's rule over pairs of intervals with an end at every `every`th point. Eq. (1.1)
-double integral_of_size(const CurveGrid::AtPoints& f, bool changes_sign, std::size_t every = 1) {
-  double sum = 0;
-  if (changes_sign)
-    for (std::size_t p = every; p + every < f.size(); p += 2 * every) sum += integral_of_size(f[p - every], f[p], f[p + every]);
-  else
-    for (std::size_t p = every; p + every < f.size(); p += 2 * every) sum += (f[p - every] + 4 * f[p] + f[p + every]) / 3;
-  return std::abs(sum) * static_cast<double>(every) / CurveGrid::kIntervals;
-}
 
 CurveGrid::AtPoints product(const CurveGrid::AtPoints& a, const CurveGrid::AtPoints& b) {
   CurveGrid::AtPoints out;
@@ -64,23 +37,30 @@ void raise_peak(CurveGrid::AtPoints f, double& peak) {
 
 }  // namespace
 
-void add_duty(const CurveGrid& grid, const CurveGrid::AtPoints& squares, const TurnSamples& turn, double h, DutySums& sums) {
-  CurveGrid::AtPoints rate, load;
+void add_duty(const CurveGrid& grid, const ForceSamplesOfStep& force, const CurveGrid::AtPoints& squares, const TurnSamples& turn, double h, DutySums& sums) {
+  CurveGrid::AtPoints rate, load, speed;
   along_grid(grid, turn.rate.data(), 1, rate);
   const auto [slowest, fastest] = std::minmax_element(rate.begin(), rate.end());
-  const bool turns_round = *slowest < 0 && *fastest > 0;
-  for (std::size_t p = 0; p < load.size(); ++p) load[p] = std::sqrt(squares[p]);
-  add_swing(grid, turn.angle, turns_round, sums);
+  for (std::size_t p = 0; p < load.size(); ++p) {
+    load[p] = std::sqrt(squares[p]);
+    speed[p] = std::abs(rate[p]);
+  }
+  add_swing(grid, turn.angle, *slowest < 0 && *fastest > 0, sums);
   raise_peak(rate, sums.peak_rate);
-  sums.path += h * integral_of_size(rate, turns_round);
-  CurveGrid::AtPoints over_path = product(load, rate);
+  const auto speed_at = [&](double x) { return std::abs(value_at(grid, turn.rate.data(), 1, x)); };
+  const auto square = [&](double x) { return square_at(grid, force.first, force.stride, force.n, x); };
+  // Adds the integral of f(square of the load) over the path.
+  const auto add = [&](const CurveGrid::AtPoints& over_path, double& sum, bool every_second, auto f) {
+    sum += h * integral_over_step(over_path, sum / h, [&](double x) { return f(square(x)) * speed_at(x); }, every_second);
+  };
+  sums.path += h * integral_over_step(speed, sums.path / h, speed_at);
+  CurveGrid::AtPoints over_path = product(load, speed);
   raise_peak(over_path, sums.peak_power);
-  sums.load += h * integral_of_size(over_path, turns_round);
+  add(over_path, sums.load, false, [](double square) { return std::sqrt(square); });
   over_path = product(over_path, squares);
-  sums.load_3 += h * integral_of_size(over_path, turns_round);
-  constexpr std::size_t kEvery = 2;  // a cube root is taken at every such point: with 1, it takes most of the time of this function
-  for (std::size_t p = 0; p < load.size(); p += kEvery) over_path[p] *= std::cbrt(load[p]);
-  sums.load_10_3 += h * integral_of_size(over_path, turns_round, kEvery);
+  add(over_path, sums.load_3, false, [](double square) { return square * std::sqrt(square); });
+  for (std::size_t p = 0; p < load.size(); p += 2) over_path[p] *= std::cbrt(load[p]);  // with a cube root at every point it takes most of the time of this function
+  add(over_path, sums.load_10_3, true, [](double square) { return std::pow(square, 5.0 / 3); });
 }
 
 template <class S>
@@ -103,11 +83,11 @@ void BasicDutyTally<S>::sample(int i, const BasicState<S>& state) {
 }
 
 template <class S>
-void BasicDutyTally<S>::add_curve(int joint, const CurveGrid& grid, const CurveGrid::AtPoints& squares, double h) {
+void BasicDutyTally<S>::add_curve(int joint, const CurveGrid& grid, const ForceSamplesOfStep& force, const CurveGrid::AtPoints& squares, double h) {
   const int at = pin_of_[static_cast<std::size_t>(joint)];
   if (at < 0) return;
   Pin& pin = pins_[static_cast<std::size_t>(at)];
-  add_duty(grid, squares, pin.samples, h, pin.sums);
+  add_duty(grid, force, squares, pin.samples, h, pin.sums);
 }
 
 template <class S>

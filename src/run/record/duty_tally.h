@@ -23,8 +23,14 @@ struct TurnSamples {
   CurveGrid::Weights angle{}, rate{};  // [rad], [rad/s]
 };
 
+/// Samples of a force: component c of sample i at `first[i * stride + c]`, c < n.
+struct ForceSamplesOfStep {
+  const double* first;
+  int stride, n;
+};
+
 /// Adds a step of h seconds, with the squares of the force at the points of the grid.
-void add_duty(const CurveGrid& grid, const CurveGrid::AtPoints& squares, const TurnSamples& turn, double h, DutySums& sums);
+void add_duty(const CurveGrid& grid, const ForceSamplesOfStep& force, const CurveGrid::AtPoints& squares, const TurnSamples& turn, double h, DutySums& sums);
 
 template <class S>
 class BasicDutyTally {
@@ -35,7 +41,7 @@ class BasicDutyTally {
   /// Takes sample i of a step.
   void sample(int i, const BasicState<S>& state);
   /// Adds a step of h seconds for a joint, if it is a pin, from the curves through the samples of `grid`, with the squares of its force at the points.
-  void add_curve(int joint, const CurveGrid& grid, const CurveGrid::AtPoints& squares, double h);
+  void add_curve(int joint, const CurveGrid& grid, const ForceSamplesOfStep& force, const CurveGrid::AtPoints& squares, double h);
   std::vector<PinDuty> result() const;
 
  private:

@@ -188,7 +188,7 @@ void BasicLoadRecorder<S>::add_samples(double t0, double h, bool resolved) {
   const double* at = samples_.data();
   for (std::size_t j = 0; j < force_.size(); ++j, at += S::kDof) {
     const CurveGrid::AtPoints squares = add_load<kForce>(at, t0, h, resolved, force_[j]);
-    if (with_heat_) duty_.add_curve(static_cast<int>(j), grid_, squares, h);
+    if (with_heat_) duty_.add_curve(static_cast<int>(j), grid_, {at, stride_, kForce}, squares, h);
     if (has_couple_[j]) add_load<kCouple>(at + kForce, t0, h, resolved, couple_[j]);
   }
   for (std::size_t j = 0; j < work_.size(); ++j, ++at)

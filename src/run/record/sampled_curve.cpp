@@ -13,24 +13,35 @@ constexpr double kNear = 0.98;   // fraction of the square of the peak so far: a
 constexpr int kRefinements = 3;  // of a peak between the points of the grid; each interval is a quarter of the previous one
 constexpr double kFiner = 0.25;  // ratio of the interval of a refinement to the previous one
 
-template <int n>
-double square_at(const CurveGrid& grid, double x, const double* samples, int stride, std::array<double, n>& value) {
-  const CurveGrid::Weights weight = grid.weights(x);
-  value.fill(0);
-  for (int i = 0; i < grid.n(); ++i)
-    for (int c = 0; c < n; ++c) value[static_cast<std::size_t>(c)] += weight[static_cast<std::size_t>(i)] * samples[i * stride + c];
-  double square = 0;
-  for (const double component : value) square += component * component;
-  return square;
+// Weights of Romberg's rule on equal intervals, at the points of the grid. theory/time Eq. (5.3)
+constexpr CurveGrid::AtPoints romberg(int intervals) {
+  std::array<CurveGrid::AtPoints, 5> rule{};  // the trapezoidal rule on 1, 2, 4, ... intervals, then extrapolated
+  std::size_t levels = 0;
+  for (int n = 1; n <= intervals; n *= 2, ++levels)
+    for (int p = 0; p <= n; ++p) rule[levels][static_cast<std::size_t>(p * CurveGrid::kIntervals / n)] = (p == 0 || p == n ? 0.5 : 1.0) / n;
+  double power = 4;
+  for (std::size_t k = 1; k < levels; ++k, power *= 4)
+    for (std::size_t j = levels - 1; j >= k; --j)
+      for (std::size_t p = 0; p < rule[j].size(); ++p) rule[j][p] += (rule[j][p] - rule[j - 1][p]) / (power - 1);
+  return rule[levels - 1];
+}
+constexpr CurveGrid::AtPoints kAll = romberg(CurveGrid::kIntervals), kHalf = romberg(CurveGrid::kIntervals / 2), kQuarter = romberg(CurveGrid::kIntervals / 4);
+constexpr double kSame = 1e-9;     // two rules agree if they differ by less, as a fraction of the integral: that with more points is then ten times as good
+constexpr int kMostHalvings = 20;  // of a step, for its integrals
+
+double sum_of(const CurveGrid::AtPoints& weight, const CurveGrid::AtPoints& value) {
+  double sum = 0;
+  for (std::size_t p = 0; p < value.size(); ++p) sum += weight[p] * value[p];
+  return sum;
 }
 
-// Simpson's rule. theory/time Eq. (5.3)
-constexpr CurveGrid::AtPoints kSimpson = [] {
-  constexpr double third = 1.0 / (3 * CurveGrid::kIntervals);
-  CurveGrid::AtPoints weight{};
-  for (std::size_t p = 0; p < weight.size(); ++p) weight[p] = p == 0 || p + 1 == weight.size() ? third : p % 2 == 1 ? 4 * third : 2 * third;
-  return weight;
-}();
+double halved_integral(const std::function<double(double)>& at, double from, double to, double allowed, int halvings) {
+  CurveGrid::AtPoints value;
+  for (std::size_t p = 0; p < value.size(); ++p) value[p] = at(from + (to - from) * static_cast<double>(p) / CurveGrid::kIntervals);
+  const double whole = (to - from) * sum_of(kAll, value), middle = 0.5 * (from + to);
+  if (halvings == 0 || !(std::abs(whole - (to - from) * sum_of(kHalf, value)) > allowed)) return whole;
+  return halved_integral(at, from, middle, allowed, halvings - 1) + halved_integral(at, middle, to, allowed, halvings - 1);
+}
 
 // Through three equidistant squares; x is measured from the middle one in units of their distance. theory/time Eq. (5.4)
 struct Parabola {
@@ -95,6 +106,28 @@ CurveGrid::Weights CurveGrid::weights(double x) const {
   return out;
 }
 
+double value_at(const CurveGrid& grid, const double* samples, int stride, double x) {
+  const CurveGrid::Weights weight = grid.weights(x);
+  double value = 0;
+  for (int i = 0; i < grid.n(); ++i) value += weight[static_cast<std::size_t>(i)] * samples[i * stride];
+  return value;
+}
+
+double square_at(const CurveGrid& grid, const double* samples, int stride, int n, double x) {
+  double square = 0;
+  for (int c = 0; c < n; ++c) {
+    const double component = value_at(grid, samples + c, stride, x);
+    square += component * component;
+  }
+  return square;
+}
+
+double integral_over_step(const CurveGrid::AtPoints& value, double total, const std::function<double(double)>& at, bool every_second) {
+  const double whole = sum_of(every_second ? kHalf : kAll, value), allowed = kSame * std::max(std::abs(whole), total);
+  if (!(std::abs(whole - sum_of(every_second ? kQuarter : kHalf, value)) > allowed)) return whole;
+  return halved_integral(at, 0, 0.5, allowed, kMostHalvings) + halved_integral(at, 0.5, 1, allowed, kMostHalvings);
+}
+
 double largest_on_grid(const CurveGrid::AtPoints& value) {
   const auto largest = static_cast<std::size_t>(std::max_element(value.begin(), value.end()) - value.begin());
   const std::size_t middle = std::clamp<std::size_t>(largest, 1, CurveGrid::kIntervals - 1);
@@ -110,14 +143,15 @@ CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int 
     along_grid(grid, samples + c, stride, component);
     for (std::size_t p = 0; p < square.size(); ++p) square[p] += component[p] * component[p];
   }
-  double integral = 0, of_square = 0;
-  for (std::size_t p = 0; p < square.size(); ++p) {
-    const double weight = kSimpson[p];
-    integral += weight * (kind == Sums::kWithSign ? component[p] : std::sqrt(square[p]));
-    of_square += weight * square[p];
+  const auto at = [&](double x) { return square_at(grid, samples, stride, n, x); };
+  if constexpr (kind == Sums::kWithSign) {
+    sums.integral += h * sum_of(kAll, component);
+  } else {
+    CurveGrid::AtPoints size;
+    for (std::size_t p = 0; p < size.size(); ++p) size[p] = std::sqrt(square[p]);
+    sums.integral += h * integral_over_step(size, sums.integral / h, [&](double x) { return std::sqrt(at(x)); });
   }
-  sums.integral += h * integral;
-  sums.square += h * of_square;
+  sums.square += h * sum_of(kAll, square);
   const double beaten = sums.peak * sums.peak;
   const auto largest = static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
   const std::size_t middle = std::clamp<std::size_t>(largest, 1, CurveGrid::kIntervals - 1);
@@ -125,8 +159,6 @@ CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int 
   double best = square[largest];
   if (!(std::max(best, parabola.value(parabola.top())) > kNear * beaten)) return square;
   double d = 1.0 / CurveGrid::kIntervals, from = static_cast<double>(middle) * d, x = static_cast<double>(largest) * d;
-  std::array<double, n> value;
-  const auto at = [&](double share) { return square_at<n>(grid, share, samples, stride, value); };
   for (int pass = 0; pass < kRefinements; ++pass) {
     if (pass > 0) {
       d *= kFiner;
@@ -140,8 +172,7 @@ CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int 
     }
   }
   if (!(best > beaten)) return square;
-  at(x);
-  sums.peak = kind == Sums::kWithSign ? value[0] : std::sqrt(best);
+  sums.peak = kind == Sums::kWithSign && value_at(grid, samples, stride, x) < 0 ? -std::sqrt(best) : std::sqrt(best);
   sums.peak_time = t0 + x * h;
   return square;
 }

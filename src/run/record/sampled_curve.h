@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 
 namespace pintle {
 
@@ -58,6 +59,16 @@ inline void along_grid(const CurveGrid& grid, const double* samples, int stride,
 }
 /// The largest of the values, or the maximum of the parabola through it and its neighbours if that is larger.
 double largest_on_grid(const CurveGrid::AtPoints& value);
+
+/// The polynomial through `samples[i * stride]` at any fraction of the step.
+double value_at(const CurveGrid& grid, const double* samples, int stride, double x);
+/// Square of the magnitude of the vector with the components `samples[i * stride + c]`, c < n, at any fraction of the step.
+double square_at(const CurveGrid& grid, const double* samples, int stride, int n, double x);
+
+/// Integral over the step, in units of the step, by Romberg's rule on every point, or on every second one. Where that rule on half of these points differs
+/// by more than a small part of the result and of `total`, the integral so far, the step is halved until it does not: near the points where a magnitude
+/// has a kink. `at` gives the function at any fraction of the step. theory/time Eq. (5.3).
+double integral_over_step(const CurveGrid::AtPoints& value, double total, const std::function<double(double)>& at, bool every_second = false);
 
 enum class Sums { kOfSize, kWithSign };
 /// Adds a step of h seconds from t0 to `sums`, for the magnitude of a vector of n components with the samples `samples[i * stride + c]`, or for a scalar
