@@ -19,6 +19,7 @@ constexpr double kRounding = 1e-11;       // fraction of the largest entry that 
 constexpr double kGiven = 0.01;           // fraction of the turnover: more negative dissipation than this is unexplained
 constexpr int kRunaway = 10;              // powers of ten above the storable energy from which growth is judged. Eq. (8.4)
 constexpr double kFarFed = 1000;          // multiple of the storable energy: a larger work is named if the run ends badly
+constexpr double kTornOpen = 0.1;         // fraction of the mechanism's size: a joint deflected by more while a load that depends on the motion has fed that much ends the run
 constexpr int kCompared = 4;              // powers of ten: the time that the last ones took is compared with that of the ones before
 constexpr double kSteady = 1.5;           // limit on the ratio of these times: 1 for an exponential, 100 for constant torque, 3.2 for t^8
 
@@ -73,8 +74,23 @@ void BasicEnergyWatch<S>::start(const BasicState<S>& state) {
     elastic += body.gravity.template head<S::kDim>().dot(S::position(state.q[i]));
     storable_ += body.gravity.template head<S::kDim>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
   }
-  storable_ += std::abs(elastic);
+  storable_ += std::abs(elastic) + work_of_loads(state, size);
+  deflection_ = {system_, state};
   flow_ = flow(state);
+}
+
+// The work of the loads at the start over the mechanism's size, or a radian.
+template <class S>
+double BasicEnergyWatch<S>::work_of_loads(const BasicState<S>& state, double size) {
+  VecsOf<S> loads(system_.bodies.size());
+  system_.motions(state.q, state.v, m_);
+  system_.external(state.t, m_, loads, state.sliding);
+  double work = 0;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const typename S::Vec load = loads[i] - system_.bodies[i].gravity;
+    work += load.template head<S::kDim>().norm() * size + load.template tail<S::kDof - S::kDim>().norm();
+  }
+  return work;
 }
 
 // The sum of powers does not show what one motor gives and another takes.
@@ -113,7 +129,8 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
     }
   if (++since_judged_ >= kJudgedEvery)
     if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
-  return judge_growth(state);
+  if (const Alarm alarm = judge_growth(state); alarm != Alarm::kNone) return alarm;
+  return judge_joints(state);
 }
 
 template <class S>
@@ -161,10 +178,11 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
                          missing > 0 ? "many" : "few", state.t, within, cause, motors > 1 ? ". Another possible cause: motors that contradict each other (pintle check counts the degrees of freedom that they leave)" : "");
 }
 
-// Eq. (8.4). Only supplied energy counts: the mechanism already had what falling weights or springs give.
+// Eq. (8.4). Only supplied energy counts: the mechanism already had what falling weights or springs give. What dampers give counts too, what they take does not: a
+// joint that is torn open takes most of it.
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const BasicState<S>& state) {
-  const double energy = state.supplied - state.dissipated;
+  const double energy = state.supplied + std::max(0.0, -state.dissipated);
   bool more = false;
   while (reached_ < kDecades && energy > storable_ * std::pow(10.0, reached_)) {
     decade_[reached_++] = state.t;
@@ -174,7 +192,9 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const Basi
   const double last = decade_[reached_ - 1] - decade_[reached_ - 1 - kCompared];
   const double before = decade_[reached_ - 1 - kCompared] - decade_[reached_ - 1 - 2 * kCompared];
   if (!(before > 0) || last > kSteady * before) return Alarm::kNone;  // powers of ten reached within one step show no growth rate
-  say_runaway(state, energy);
+  const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
+  message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, growing tenfold every {:.2g} s{}",
+                         decade_[0], storable_, energy, state.t, span / (2 * kCompared), whose_signs());
   return Alarm::kRunaway;
 }
 
@@ -198,7 +218,9 @@ void BasicEnergyWatch<S>::add_works(const BasicState<S>& state, double h) {
 template <class S>
 const typename BasicEnergyWatch<S>::Feeder* BasicEnergyWatch<S>::largest_feeder() const {
   const auto most = std::max_element(feeders_.begin(), feeders_.end(), [](const Feeder& a, const Feeder& b) { return a.work < b.work; });
-  return most != feeders_.end() && most->work > 0 ? &*most : nullptr;
+  if (most != feeders_.end() && most->work > 0) return &*most;
+  // Powers that change their sign within steps add up to anything; a single load needs no comparison.
+  return system_.loads.size() == 1 && reached_ > kRunaway ? &feeders_[system_.joints.size()] : nullptr;
 }
 
 template <class S>
@@ -209,12 +231,25 @@ std::string BasicEnergyWatch<S>::note_on_feeder() const {
                      most->work / storable_);
 }
 
+// A motion that is fed by what depends on it, until a joint gives way, need not go on growing.
 template <class S>
-void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy) {
-  const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
-  message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, growing tenfold every {:.2g} s",
-                         decade_[0], storable_, energy, state.t, span / (2 * kCompared));
-  if (const Feeder* most = largest_feeder()) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_joints(const BasicState<S>& state) {
+  if (!(std::max(state.supplied, -state.dissipated) > kFarFed * storable_)) return Alarm::kNone;
+  const Feeder* most = largest_feeder();
+  if (most == nullptr || !most->listens || !(most->work > kFarFed * storable_)) return Alarm::kNone;
+  for (std::size_t j = 0; j < system_.joints.size(); ++j)
+    if (const double torn = deflection_.of(j, state.force[j].template head<S::kDim>().norm()); torn > kTornOpen) {
+      message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, when joint {} was torn open by {:.2g} m{}", decade_[0], storable_,
+                             state.supplied, state.t, system_.joints[j].name, torn * deflection_.size(), whose_signs());
+      return Alarm::kRunaway;
+    }
+  return Alarm::kNone;
+}
+
+template <class S>
+std::string BasicEnergyWatch<S>::whose_signs() const {
+  const Feeder* most = largest_feeder();
+  return most == nullptr ? "" : fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
 }
 
 template class BasicEnergyWatch<Planar>;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "run/limits/torn_joints.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -42,18 +43,21 @@ class BasicEnergyWatch {
   };
   Alarm judge_account(const BasicState<S>& state);
   Alarm judge_growth(const BasicState<S>& state);
+  Alarm judge_joints(const BasicState<S>& state);
   void add_works(const BasicState<S>& state, double h);
   double potential(const BasicState<S>& state);
+  double work_of_loads(const BasicState<S>& state, double size);
   double flow(const BasicState<S>& state);
   void say_open(const BasicState<S>& state, double missing, double within);
-  void say_runaway(const BasicState<S>& state, double energy);
+  std::string whose_signs() const;
   const Feeder* largest_feeder() const;
 
   static constexpr int kDecades = 64;  // number of powers of ten of the storable energy whose times are kept
   const BasicSystem<S>& system_;
   double duration_, tolerance_;
   bool exact_work_;
-  double storable_ = 0;                  // Eq. (8.3): stored at the start, and by its weights over its size [J]
+  BasicDeflectionScale<S> deflection_;
+  double storable_ = 0;                  // Eq. (8.3): stored at the start, and by its weights and loads over its size [J]
   double total_ = 0, potential_ = 0;     // at the start [J]
   double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of potential energy [J]
   double kinetic_ = 0, exchanged_ = 0;   // at the last step; sum of the absolute changes [J]

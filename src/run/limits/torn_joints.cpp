@@ -24,25 +24,35 @@ double largest_stiffness(const BasicJointData<S>& joint) {
 }  // namespace
 
 template <class S>
-std::string note_on_torn_joint(const BasicSystem<S>& system, const BasicState<S>& start, const std::vector<LoadSummary>& joints) {
-  const double size = std::max(largest_coordinate(start.q), system.largest_radius_of_gyration());
-  double weight = 0, farthest = kTorn * size;
+BasicDeflectionScale<S>::BasicDeflectionScale(const BasicSystem<S>& system, const BasicState<S>& start) : size_(std::max(largest_coordinate(start.q), system.largest_radius_of_gyration())) {
+  double weight = 0;
   for (const auto& body : system.bodies) weight += kStandardGravity * body.mass[0];
+  for (const BasicJointData<S>& joint : system.joints) {
+    const double stiffness = largest_stiffness(joint);
+    compliance_.push_back(weight / stiffness < kTorn * kTorn * size_ ? 1 / stiffness : 0);
+  }
+}
+
+template <class S>
+std::string note_on_torn_joint(const BasicSystem<S>& system, const BasicState<S>& start, const std::vector<LoadSummary>& joints) {
+  const BasicDeflectionScale<S> deflection(system, start);
+  double farthest = kTorn;
   const LoadSummary* torn = nullptr;
   for (std::size_t j = 0, row = 0; j < system.joints.size() && row < joints.size(); ++j) {
     if (system.joints[j].servo >= 0) continue;
     const LoadSummary& joint = joints[row++];
-    const double stiffness = largest_stiffness(system.joints[j]);
-    if (!(weight / stiffness < kTorn * kTorn * size) || !(joint.peak / stiffness > farthest)) continue;
-    farthest = joint.peak / stiffness;
+    if (!(deflection.of(j, joint.peak) > farthest)) continue;
+    farthest = deflection.of(j, joint.peak);
     torn = &joint;
   }
   if (torn == nullptr) return "";
   return fmt::format("joint {} is torn open by {:.2g} m, {:.0f} % of the mechanism's size, at t = {:.4g} s (its peak of {:.4g} N over its stiffness): no machine survives that. Check the signs and units of what drives it, "
                      "and whether the mechanism can make the prescribed motion",
-                     torn->name, farthest, 100 * farthest / size, torn->peak_time, torn->peak);
+                     torn->name, farthest * deflection.size(), 100 * farthest, torn->peak_time, torn->peak);
 }
 
+template class BasicDeflectionScale<Planar>;
+PINTLE_IN_SPACE(template class BasicDeflectionScale<Spatial>;)
 template std::string note_on_torn_joint(const BasicSystem<Planar>& system, const BasicState<Planar>& start, const std::vector<LoadSummary>& joints);
 PINTLE_IN_SPACE(template std::string note_on_torn_joint(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const std::vector<LoadSummary>& joints);)
 
