@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kJudgedEvery = 8;           // steps between two checks of the account
 constexpr double kExplained = 30;         // multiple of tolerance times turnover that errors of the forces explain. Eq. (8.2)
+constexpr double kCoarseWork = 0.05;       // fraction of the turnover that a method whose works are sums over its steps may leave open
 constexpr double kPerExchange = 0.01;     // fraction of the energy exchanged that counts as turnover: errors add up in long runs
 constexpr double kLeastJudged = 1e-7;  // lower limit on the tolerance by which the account is judged: below it roundoff dominates
 constexpr double kRounding = 1e-11;       // fraction of the largest entry that roundoff may leave open
@@ -150,12 +151,12 @@ double BasicEnergyWatch<S>::turnover() const {
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const BasicState<S>& state) {
   since_judged_ = 0;
-  if (!exact_work_) return Alarm::kNone;
   const double stored = potential(state), kinetic = system_.kinetic(state.v);
   swing_ = std::max(swing_, std::abs(stored - potential_));
   const double missing = kinetic + stored + state.dissipated - state.supplied - total_;
   const double largest = std::max({kinetic, std::abs(stored), std::abs(potential_), std::abs(state.supplied), std::abs(state.dissipated)});
-  const double within = kExplained * tolerance_ * std::max(expected_, turnover()) + kRounding * largest;
+  const double share = exact_work_ ? kExplained * tolerance_ : std::max(kExplained * tolerance_, kCoarseWork);
+  const double within = share * std::max(expected_, turnover()) + kRounding * largest;
   if (std::abs(missing) <= within) {
     missing_ = missing;
     return Alarm::kNone;

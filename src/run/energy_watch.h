@@ -16,7 +16,7 @@ class BasicEnergyWatch {
   enum class Alarm { kNone, kRunaway, kOpen };
 
   /// For a motion of `duration` [s] whose forces are to be accurate to `tolerance` [-]. `exact_work`: the method integrates work as accurately as the
-  /// motion; otherwise the account is not judged. `counts_turns`: the method follows belts however far they are wound; otherwise they are watched.
+  /// motion; otherwise the account is judged loosely. `counts_turns`: the method follows belts however far they are wound; otherwise they are watched.
   BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work, bool counts_turns);
 
   /// Sets the energy turned over by the earlier integration whose loads serve as the error scale of this one [J].

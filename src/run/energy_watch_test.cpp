@@ -106,12 +106,14 @@ TEST(EnergyWatch, HeatBelowZeroIsNoticedAtTheEnd) {
 
 TEST(EnergyWatch, WhatErrorsWithinTheToleranceExplainIsNoAlarm) {
   Pendulum p;
-  EnergyWatch loose(p.system, 2, 1e-3, true, true), tight(p.system, 2, 1e-6, true, true), unheard(p.system, 2, 1e-6, false, true);
-  for (EnergyWatch* watch : {&loose, &tight, &unheard}) watch->start(p.state);
+  EnergyWatch loose(p.system, 2, 1e-3, true, true), tight(p.system, 2, 1e-6, true, true), of_coarse_work(p.system, 2, 1e-6, false, true);
+  for (EnergyWatch* watch : {&loose, &tight, &of_coarse_work}) watch->start(p.state);
   p.state.supplied += 0.05;
   EXPECT_EQ(loose.see_end(p.state), Alarm::kNone);
   EXPECT_EQ(tight.see_end(p.state), Alarm::kOpen);
-  EXPECT_EQ(unheard.see_end(p.state), Alarm::kNone);
+  EXPECT_EQ(of_coarse_work.see_end(p.state), Alarm::kNone);
+  p.state.supplied += 0.1 * of_coarse_work.turnover();
+  EXPECT_EQ(of_coarse_work.see_end(p.state), Alarm::kOpen);
 }
 
 // A drive that lifts a weight gives what the weight takes: their sum is almost zero, but the error of each is relative to what it turns over.

@@ -10,6 +10,7 @@
 #include "integrators/bend_watch.h"
 #include "integrators/methods.h"
 #include "run/pass_constants.h"
+#include "system/target_jumps.h"
 
 namespace pintle {
 
@@ -101,6 +102,11 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
       break;
     }
     const BasicState<S>& now = stepper.state();
+    if (const auto jump = has_constraints(plan.choice.equations) ? first_target_jump(system, stepper.previous().t, now.t) : std::nullopt) {
+      out.ended = Ended::kFailed;
+      out.message = infinite_force_message(*jump, system.joints[static_cast<std::size_t>(jump->joint)]);
+      break;
+    }
     recorder.see_step(stepper);
     if (plan.ringing && stepper.nodes() != nullptr && now.t > stepper.previous().t) plan.ringing->see_step(*stepper.nodes(), now.t - stepper.previous().t);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;

@@ -225,8 +225,8 @@ class Passes {
 
   void find_difference(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
-    // Other methods step over kinks, near which their curves are only approximate.
-    if (choice_.method != "radau" || coarse.t.back() != fine.t.back()) return;
+    // Other methods on free bodies step over kinks, near which their curves are only approximate.
+    if ((choice_.method != "radau" && !has_constraints(choice_.equations)) || coarse.t.back() != fine.t.back()) return;
     include_peaks(fine_->loads(), kNegligible, difference_);
     include_peak_differences(coarse_->loads(), fine_->loads(), difference_);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "system/system.h"
@@ -18,6 +19,10 @@ struct TargetJump {
   double t;               // the last time before the jump [s]
   double position, rate;  // [m or rad], [m/s or rad/s]; one of them may be 0
 };
+
+/// Why ideal joints cannot follow a target that jumps.
+template <class S>
+std::string infinite_force_message(const TargetJump& jump, const BasicJointData<S>& joint);
 
 /// The change of a driven joint's target between two adjacent times beyond what its rate and acceleration explain; none if that is zero.
 template <class S>

@@ -304,8 +304,13 @@ void IdealEquations::measure_violation() {
 
 std::string IdealEquations::violation_text(const std::string& method) const {
   std::string text = fmt::format("{}: the constraints of ideal joints are violated by at most {:.1e} m and {:.1e} rad", method, violation_[0], violation_[1]);
-  if (equations_ == Equations::kPenalty)
-    text += fmt::format("; the stated force errors are those of the integration only; the penalties add an error of the order of 1/penalty, {:.0e} of a force", 1 / penalty_.factor);
+  if (equations_ != Equations::kPenalty) return text;
+  text += fmt::format("; the stated force errors are those of the integration only; the penalties add an error of the order of 1/penalty, {:.0e} of a force", 1 / penalty_.factor);
+  // A spring between the bodies of a loop is stretched by what the ideal joints of the loop open.
+  double stiffest = 0;
+  for (const JointData& joint : system_.joints)
+    if (!joint.ideal && joint.servo < 0) stiffest = std::max(stiffest, joint.law.engaged_stiffness().head<2>().maxCoeff());
+  if (stiffest > 0) text += fmt::format(", and up to {:.1e} N where these violations stretch the stiffest of the other joints", stiffest * violation_[0]);
   return text;
 }
 

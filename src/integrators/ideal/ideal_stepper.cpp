@@ -21,14 +21,6 @@ constexpr double kCrossing = 0.1;        // fraction of the tolerance times the 
 constexpr double kNearJump = 1e-4;       // fraction of the usual step: rejected steps this short are checked for jumps
 constexpr double kLeastCrossing = 1e-8;  // lower limit on such steps, as a fraction of the usual step: shorter ones are lost in the rounding of velocities over the step
 
-// Rigid joints cannot follow a target that jumps.
-std::string jump_text(const TargetJump& jump, const JointData& joint) {
-  const bool turns = joint.driven == S::kTurn;
-  const std::string change = jump.position != 0 ? fmt::format("jump by {:.4g} {}", jump.position, turns ? "rad" : "m") : fmt::format("change its speed by {:.4g} {} instantly", jump.rate, turns ? "rad/s" : "m/s");
-  return fmt::format("{} {} is to {} at t = {:.9g} s, which would take an infinite force with ideal joints; spread the change over some time (smoothstep), or use equations = \"newtonian\", whose joints and motors are compliant",
-                     joint.servo >= 0 ? "motor" : "joint", joint.name, change, jump.t);
-}
-
 }  // namespace
 
 IdealStepper::IdealStepper(const System& system, double tolerance, Equations equations, const PenaltySettings& penalty)
@@ -118,7 +110,7 @@ bool IdealStepper::step(double t_end) {
     const double end = end_of_step(begin_.t, h, stop);
     if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // end the step there
       if (jump->t <= begin_.t + 16 * rounding) {
-        failure_ = jump_text(*jump, system_.joints[static_cast<std::size_t>(jump->joint)]);
+        failure_ = infinite_force_message(*jump, system_.joints[static_cast<std::size_t>(jump->joint)]);
         return false;
       }
       stop = jump->t;

@@ -11,9 +11,12 @@ namespace {
 
 constexpr int kMostHalvings = 10;  // upper limit on halvings of a part of a step; a jump of the loads is never resolved. With 5, the RMS of a pulse of 0.4 ms in a second is right to 4e-4 only
 
-// At the end of a step, the state before the event: what laws set their states to there belongs to the next step.
+// At the end of a step, the state before the event: what laws set their states to there belongs to the next step. A step so short that it has passed over a jump
+// of a force or of a driven coordinate has no curve; its ends count.
 template <class S>
 const BasicState<S>& on_curve(BasicStepper<S>& stepper, double t) {
+  const double begin = stepper.previous().t, end = stepper.state().t;
+  if (t < end && end - begin <= kShortestRefused * end) return stepper.previous();
   return t == stepper.state().t ? stepper.state_before_event() : stepper.interpolate(t);
 }
 
