@@ -66,14 +66,14 @@ void BatchMechanism::take_off_target(std::size_t j, const VariantLanes& t, Batch
   const int s = joints[j].servo;
   for (int lane = 0; lane < kVariantLanes; ++lane) {
     const auto target = target_of(variant_[lane]->joints[j], t[lane]);
-    r.gap[s].v[lane] -= target[0];
-    r.rate[s].v[lane] -= target[1];
-    r.bias[s].v[lane] -= target[2];
+    subtract(r.gap[s], lane, target[0]);
+    subtract(r.rate[s], lane, target[1]);
+    subtract(r.bias[s], lane, target[2]);
   }
 }
 
 void BatchMechanism::take_off_accel(std::size_t j, const VariantLanes& t, VariantVec& bias) const {
-  for (int lane = 0; lane < kVariantLanes; ++lane) bias[joints[j].servo].v[lane] -= target_of(variant_[lane]->joints[j], t[lane])[2];
+  for (int lane = 0; lane < kVariantLanes; ++lane) subtract(bias[joints[j].servo], lane, target_of(variant_[lane]->joints[j], t[lane])[2]);
 }
 
 void BatchMechanism::take_motions(const std::vector<BatchMotion>& m, int lane) {

@@ -90,7 +90,7 @@ class BatchSteps {
     for (const VariantVec& a : end_.a)
       for (int k = 0; k < 3; ++k) nothing += 0.0 * a[k];
     for (int lane = 0; lane < kVariantLanes; ++lane)
-      if (nothing[lane] != 0) worst_.v[lane] = HUGE_VAL;
+      if (nothing[lane] != 0) worst_.set(lane, HUGE_VAL);
   }
 
   // Extrapolates the last step's curve. `ratio`: this step over the last one; 0: there is none.
@@ -198,9 +198,9 @@ class BatchSteps {
   PINTLE_LANES void add_slopes(int lane, Block<VariantLanes, 3>& real, Block<Pair, 3>& pair, const Planar::Mat& dq, const Planar::Mat& dv) const {
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
-        real(r, c).v[lane] -= 0.5 * (dq(r, c) + mu_[lane] * dv(r, c));
-        pair(r, c).re.v[lane] -= 0.5 * (dq(r, c) + nu_.re[lane] * dv(r, c));
-        pair(r, c).im.v[lane] -= 0.5 * (nu_.im[lane] * dv(r, c));
+        subtract(real(r, c), lane, 0.5 * (dq(r, c) + mu_[lane] * dv(r, c)));
+        subtract(pair(r, c).re, lane, 0.5 * (dq(r, c) + nu_.re[lane] * dv(r, c)));
+        subtract(pair(r, c).im, lane, 0.5 * (nu_.im[lane] * dv(r, c)));
       }
   }
 
@@ -221,7 +221,7 @@ class BatchSteps {
       last = change;
     }
     for (int lane = 0; lane < kVariantLanes; ++lane)
-      if (active[lane] != 0) worst_.v[lane] = HUGE_VAL;
+      if (active[lane] != 0) worst_.set(lane, HUGE_VAL);
   }
 
   // Sets `active` to 0 in lanes that are done; returns false if all are. Same rule as NewtonContraction.
@@ -231,7 +231,7 @@ class BatchSteps {
       if (active[lane] == 0) continue;
       const double size = change[lane] / of_newton_;
       if (change[lane] < NewtonContraction::kRounding) {
-        active.v[lane] = 0;
+        active.set(lane, 0);
         continue;
       }
       double rate = iteration == 0 ? std::clamp(2 * contraction_[lane], 0.01, 0.9) : change[lane] / last[lane];
@@ -239,8 +239,8 @@ class BatchSteps {
       if (iteration > 0) contraction_[lane] = rate;
       const bool done = rate < 1 && rate / (1 - rate) * size < NewtonContraction::kShare;
       const bool failed = !std::isfinite(size) || rate > 2;
-      if (failed) worst_.v[lane] = HUGE_VAL;
-      if (done || failed) active.v[lane] = 0;
+      if (failed) worst_.set(lane, HUGE_VAL);
+      if (done || failed) active.set(lane, 0);
       else any = true;
     }
     return any;

@@ -1,7 +1,11 @@
 #include "io/model_variants.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
+
+#include "base/units.h"
 
 namespace pintle {
 namespace {
@@ -39,12 +43,15 @@ ModelVariants::ModelVariants(const Document& document, const std::vector<std::st
   ModelReading whole(document, files);
   read_all(whole);
   whole.complaints.throw_if_any();
+  const auto constants = whole.records.scope.constant;
   base_ = std::move(whole.model);
   markers_of_ = std::move(whole.markers_of);
   type_of_joint_ = std::move(whole.type_of_joint);
   named_tables_ = std::move(whole.tables);
   for (const std::string& path : paths) {
     paths_.push_back(keys_of(path));
+    const auto constant = paths_.back()[0] == "parameters" ? constants(paths_.back()[1]) : std::nullopt;
+    units_.push_back(constant && !constant->dimension.any && !is_pure(constant->dimension) ? " " + to_unit_text(constant->dimension) : "");
     node_at(changing_.root, paths_.back()).value = std::string(kVaried);
     if (paths_.back()[0] == "parameters") parameters_.insert(paths_.back()[1]);
   }
@@ -53,7 +60,7 @@ ModelVariants::ModelVariants(const Document& document, const std::vector<std::st
 }
 
 ModelVariants::ModelVariants(const ModelVariants& other)
-    : paths_(other.paths_), parameters_(other.parameters_), changing_(other.changing_), base_(other.base_), markers_of_(other.markers_of_),
+    : paths_(other.paths_), units_(other.units_), parameters_(other.parameters_), changing_(other.changing_), base_(other.base_), markers_of_(other.markers_of_),
       type_of_joint_(other.type_of_joint_),
       named_tables_(other.named_tables_), files_(other.files_), bodies_(other.bodies_), joints_(other.joints_), springs_(other.springs_), forces_(other.forces_),
       motors_(other.motors_), all_joints_(other.all_joints_), settings_(other.settings_), ground_(other.ground_), tables_(other.tables_) {
@@ -126,7 +133,11 @@ void ModelVariants::leave_out_what_stays() {
 }
 
 Model ModelVariants::at(std::span<const double> values) {
-  for (std::size_t i = 0; i < paths_.size(); ++i) node_at(changing_.root, paths_[i]).value = values[i];
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    Node& node = node_at(changing_.root, paths_[i]);
+    if (units_[i].empty()) node.value = values[i];
+    else node.value = fmt::format("{:.17g}{}", values[i], units_[i]);
+  }
   ModelReading& reading = *reading_;
   reading.model = Model();
   reading.records.scope.constant_names.clear();

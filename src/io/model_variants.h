@@ -21,6 +21,8 @@ class ModelVariants {
 
   /// The model with one number [SI] at each path. Throws InputError where the numbers are inconsistent.
   Model at(std::span<const double> values);
+  /// Whether [simulate] or gravity may depend on the values.
+  bool settings_vary() const { return settings_; }
 
  private:
   // Positions in the model of the things of one kind that are read again.
@@ -32,6 +34,7 @@ class ModelVariants {
   bool depends(const Node& node) const;
 
   std::vector<std::vector<std::string>> paths_;
+  std::vector<std::string> units_;    // of varied parameters, with a blank: a constant without its dimension would not fit where it is used
   std::set<std::string> parameters_;  // those that change, and tables
   Document changing_;                 // the file without what stays the same
   Model base_;

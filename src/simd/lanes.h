@@ -53,6 +53,12 @@ struct Lanes {
   PINTLE_LANES friend Lanes operator*(const Lanes& a, double x) { return {x * a.v}; }
 };
 
+/// Subtracts x from one lane.
+template <int N>
+PINTLE_LANES void subtract(Lanes<N>& from, int lane, double x) {
+  from.set(lane, from[lane] - x);
+}
+
 template <int N>
 PINTLE_LANES Lanes<N> reciprocal(const Lanes<N>& a) {
   return {1 / a.v};

@@ -7,9 +7,9 @@
 
 namespace pintle {
 
-ChunkQueue::ChunkQueue(std::uint64_t n_samples, const std::function<bool(std::uint64_t)>& done) : to_do_((n_samples + kSamplesPerChunk - 1) / kSamplesPerChunk) {
+ChunkQueue::ChunkQueue(std::uint64_t n_samples, std::uint64_t per_chunk, const std::function<bool(std::uint64_t)>& done) : to_do_((n_samples + per_chunk - 1) / per_chunk) {
   for (std::uint64_t i = 0; i < n_samples; ++i)
-    if (!done(i)) to_do_[i / kSamplesPerChunk] = true;
+    if (!done(i)) to_do_[i / per_chunk] = true;
 }
 
 std::optional<std::uint64_t> ChunkQueue::next() {
@@ -24,7 +24,7 @@ void ChunkQueue::close() {
 }
 
 std::vector<SampleResult> ChunkComputer::compute(std::uint64_t chunk, const std::function<bool()>& keep_going) {
-  const std::uint64_t first = chunk * kSamplesPerChunk, last = std::min(first + kSamplesPerChunk, plan_.size());
+  const std::uint64_t per_chunk = samples_per_chunk(check_every_), first = chunk * per_chunk, last = std::min(first + per_chunk, plan_.size());
   std::vector<SampleResult> out(last - first);
   std::vector<Variant> variants;
   std::vector<std::size_t> place;  // index of each variant among the results

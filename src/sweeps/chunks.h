@@ -13,13 +13,14 @@
 
 namespace pintle {
 
-inline constexpr std::uint64_t kSamplesPerChunk = 16;
+/// Of which those that are not checked are integrated together. Where every sample is, there is nothing to share: one by one, each is kept as soon as it is finished.
+inline std::uint64_t samples_per_chunk(std::uint64_t check_every) { return check_every == 1 ? 1 : 16; }
 
 /// The chunks that remain to be computed; several threads take chunks from it.
 class ChunkQueue {
  public:
   /// `done` tells which samples already exist.
-  ChunkQueue(std::uint64_t n_samples, const std::function<bool(std::uint64_t)>& done);
+  ChunkQueue(std::uint64_t n_samples, std::uint64_t per_chunk, const std::function<bool(std::uint64_t)>& done);
   std::optional<std::uint64_t> next();
   void close();  ///< no further chunks are handed out
 

@@ -128,6 +128,10 @@ class AxisReader {
       return std::nullopt;
     }
     const Quantity& quantity = std::get<Quantity>(parsed);
+    if (const auto problem = reading_.records.speed_problem(word, key_.dimension)) {
+      complain(offset, *problem, kSpeedExample);
+      return std::nullopt;
+    }
     if (const auto problem = check_dimension(quantity.dimension, key_.dimension)) {
       complain(offset, *problem, key_.unit.empty() ? "a plain number" : "numbers in SI, or with a unit such as " + key_.unit);
       return std::nullopt;

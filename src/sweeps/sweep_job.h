@@ -20,6 +20,7 @@ class SweepJob {
   /// SHA-256 of everything that the results depend on, including the program's version.
   const std::string& hash() const { return origin_.plan; }
   SweepOrigin origin(const std::string& command) const;
+  std::uint64_t samples_per_chunk() const { return pintle::samples_per_chunk(origin_.check_every); }
   ChunkComputer computer() const { return {plan_, *engine_, *variants_, origin_.check_every}; }
 
  private:

@@ -34,10 +34,11 @@ bool has_peaks(std::uint8_t status) {
   return std::find(kWhole.begin(), kWhole.end(), static_cast<SampleStatus>(status)) != kWhole.end();
 }
 
-// The smallest of the sorted values that at least this fraction of them does not exceed.
+// Quantile of sorted values, between two of them by linear interpolation: the median of an even number is the mean of the middle two.
 double at_share(const std::vector<double>& sorted, double share) {
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  return std::lerp(sorted[below], sorted[std::min(below + 1, sorted.size() - 1)], place - static_cast<double>(below));
 }
 
 // The largest peak force over the joints of a sample.
@@ -52,6 +53,7 @@ PeakStatistics statistics_of(const SweepTable& table, std::size_t joint) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   PeakStatistics out{table.joints[joint], kNone, kNone, kNone, kNone, 0, 0, kNone};
   std::vector<double> peaks;
+  bool unknown = false;  // the error of a peak, as that of a chaotic motion
   const std::size_t n = table.joints.size();
   for (std::size_t i = 0; i < table.n_samples(); ++i) {
     const double peak = table.force[i * n + joint], error = table.error[i * n + joint] / std::max(peak, kNegligible * largest_peak(table, i));
@@ -59,8 +61,10 @@ PeakStatistics statistics_of(const SweepTable& table, std::size_t joint) {
     peaks.push_back(peak);
     if (!(peak >= out.least)) out.least_sample = i, out.least = std::isnan(out.least) ? peak : std::min(out.least, peak);
     if (!(peak <= out.most)) out.most_sample = i, out.most = peak;
-    if (std::isfinite(error) && !(error <= out.worst_error)) out.worst_error = error;
+    if (!(error <= out.worst_error)) out.worst_error = error;
+    unknown = unknown || !std::isfinite(error);
   }
+  if (unknown) out.worst_error = kNone;
   if (peaks.empty()) return out;
   std::sort(peaks.begin(), peaks.end());
   out.least = peaks.front();
@@ -92,7 +96,7 @@ std::string troubles_text(const SweepTable& table) {
   for (const SampleStatus status : kStatuses)
     if (const std::size_t count = count_of(table, status); status != SampleStatus::kCompleted && count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_text(status));
   if (text.empty()) return {};
-  text = fmt::format("\n{} of {} samples did not complete: {}\n", table.troubled.size(), table.n_samples(), text);
+  text = fmt::format("\n{} of {} samples did not end as \"completed\": {}\n", table.troubled.size(), table.n_samples(), text);
   for (std::size_t k = 0; k < std::min(kMostMessages, table.troubled.size()); ++k) {
     const std::string& message = table.messages[k];
     text += fmt::format("  sample {} ({}): {}\n", table.troubled[k], values_text(table, table.troubled[k]), start_of(message));

@@ -50,8 +50,9 @@ class RecordReader {
  public:
   explicit RecordReader(Complaints& complaints) : complaints_(complaints) {}
 
-  /// The constants available to expressions.
+  /// The constants available to expressions, and those of them that are frequencies.
   ParseScope scope;
+  std::vector<std::string> in_hertz;
   /// Variables of expressions beyond the schema's own; called with the expression's text if it may read joints.
   std::function<void(std::string_view text, std::vector<std::pair<std::string, Dimension>>& variables)> joint_variables;
 
@@ -64,6 +65,11 @@ class RecordReader {
   std::optional<double> read_number(const Node& node, const KeySpec& spec, const std::string& path);
   /// The same before dimension and range are checked.
   std::optional<Quantity> read_quantity(const Node& node, const std::string& path);
+  /// Whether the text states a frequency: a number of hertz, or a constant that is one, and no angle.
+  bool is_in_hertz(std::string_view text) const;
+  /// Why the text cannot stand for a quantity of this dimension, if that is a rotational speed and the text a frequency: the user means turns per second, the unit
+  /// system 1/s, where a radian is 1.
+  std::optional<std::string> speed_problem(std::string_view text, const Dimension& wanted) const;
   std::optional<Marker> read_marker(const Entry& entry, const std::string& path);
   /// Whether the node is a table. Complains if not.
   bool is_table(const Node& node, const std::string& path);
@@ -97,6 +103,9 @@ class RecordReader {
   Complaints& complaints_;
   const TableSpec* table_ = nullptr;  ///< the table being read
 };
+
+/// What to write instead of a frequency.
+inline constexpr const char* kSpeedExample = "\"120 rpm\", \"2 rev/s\" or \"4*pi rad/s\"";
 
 /// Why a key cannot have this number; "" if it can.
 std::string range_problem(double number, const KeySpec& spec);

@@ -62,21 +62,14 @@ std::string list_example(const KeySpec& spec) {
 }
 
 // Whether the text contains one of these variables.
-bool mentions(const Node& node, const std::vector<std::string>& variables) {
-  const std::string* text = node.string();
-  if (text == nullptr) return false;
-  const auto in_word = [text](std::size_t at) { return at < text->size() && (is_word_part((*text)[at]) || (*text)[at] == '.'); };
+bool mentions(std::string_view text, const std::vector<std::string>& variables) {
+  const auto in_word = [text](std::size_t at) { return at < text.size() && (is_word_part(text[at]) || text[at] == '.'); };
   for (const std::string& variable : variables)
-    for (std::size_t at = text->find(variable); at != std::string::npos; at = text->find(variable, at + 1))
+    for (std::size_t at = text.find(variable); at != std::string_view::npos; at = text.find(variable, at + 1))
       if (!in_word(at + variable.size()) && (at == 0 || !in_word(at - 1))) return true;
   return false;
 }
-
-// A rotational speed stated in hertz: the user means turns per second, the unit system 1/s, where a radian is 1.
-bool is_speed_in_hertz(const Node& node, const KeySpec& spec) {
-  const std::string* text = node.string();
-  return text != nullptr && spec.dimension == kAngularSpeed && text->ends_with("Hz") && mentions(node, {"Hz", "kHz"}) && !mentions(node, {"pi"});
-}
+bool mentions(const Node& node, const std::vector<std::string>& variables) { return node.string() != nullptr && mentions(*node.string(), variables); }
 
 }  // namespace
 
@@ -90,6 +83,15 @@ std::string range_problem(double number, const KeySpec& spec) {
   if (spec.minimum && number < *spec.minimum) return "this must be at least " + short_number(*spec.minimum) + unit;
   if (spec.maximum && number > *spec.maximum) return "this must be at most " + short_number(*spec.maximum) + unit;
   return {};
+}
+
+bool RecordReader::is_in_hertz(std::string_view text) const {
+  return (mentions(text, {"Hz", "kHz"}) || mentions(text, in_hertz)) && !mentions(text, {"pi", "rad", "deg", "rev", "turn"});
+}
+
+std::optional<std::string> RecordReader::speed_problem(std::string_view text, const Dimension& wanted) const {
+  if (wanted != kAngularSpeed || !is_in_hertz(text)) return std::nullopt;
+  return "a rotational speed is expected here; a frequency is not turns per second, but 1/s";
 }
 
 void RecordReader::complain(const ParseProblem& problem, const Node& node, const std::string& path) {
@@ -148,10 +150,11 @@ std::optional<double> RecordReader::read_number(const Node& node, const KeySpec&
 }
 
 std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& spec, const std::string& path) {
-  if (is_speed_in_hertz(node, spec)) {
-    complaints_.add(node.spot, path, describe(node), "a rotational speed is expected here; a frequency is not turns per second, but 1/s", "\"120 rpm\", \"2 rev/s\" or \"4*pi rad/s\"");
-    return std::nullopt;
-  }
+  if (const std::string* text = node.string(); text != nullptr && !is_function_of_time(node, spec))
+    if (auto problem = speed_problem(*text, spec.dimension)) {
+      complaints_.add(node.spot, path, describe(node), std::move(*problem), kSpeedExample);
+      return std::nullopt;
+    }
   Value value;
   bool good = false;
   switch (spec.type) {

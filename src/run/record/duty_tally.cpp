@@ -56,11 +56,11 @@ void add_duty(const CurveGrid& grid, const ForceSamplesOfStep& force, const Curv
   sums.path += h * integral_over_step(speed, sums.path / h, speed_at);
   CurveGrid::AtPoints over_path = product(load, speed);
   raise_peak(over_path, sums.peak_power);
-  add(over_path, sums.load, false, [](double square) { return std::sqrt(square); });
+  add(over_path, sums.load, false, [](double f2) { return std::sqrt(f2); });
   over_path = product(over_path, squares);
-  add(over_path, sums.load_3, false, [](double square) { return square * std::sqrt(square); });
+  add(over_path, sums.load_3, false, [](double f2) { return f2 * std::sqrt(f2); });
   for (std::size_t p = 0; p < load.size(); p += 2) over_path[p] *= std::cbrt(load[p]);  // with a cube root at every point it takes most of the time of this function
-  add(over_path, sums.load_10_3, true, [](double square) { return std::pow(square, 5.0 / 3); });
+  add(over_path, sums.load_10_3, true, [](double f2) { return std::pow(f2, 5.0 / 3); });
 }
 
 template <class S>
