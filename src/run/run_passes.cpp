@@ -16,6 +16,7 @@
 #include "run/limits/torn_joints.h"
 #include "run/pass_constants.h"
 #include "run/pass_decisions.h"
+#include "run/record/joint_events.h"
 #include "run/recording.h"
 
 namespace pintle {
@@ -341,13 +342,14 @@ class Passes {
 
   void finish() {
     fine_->fill(out_);
-    fill_events();
+    out_.events = events_of_joints(system_, last_.crossings, fine_->heat_at_crossings());
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
     measure_by_peaks();
     const auto worst = std::max_element(relative_difference_.begin(), relative_difference_.end());
     const BasicJointData<S>* worst_joint = worst == relative_difference_.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference_.begin())];
     judge(worst_joint);
+    note_on_motion();
     const std::string torn = note_on_torn_joint(system_, start_, out_.joints);
     if (!torn.empty()) out_.notes.insert(out_.notes.begin(), torn);
     if (!feeder_note_.empty() && (out_.outcome != Outcome::kCompleted || !torn.empty()) && out_.outcome != Outcome::kRunaway) out_.notes.push_back(feeder_note_);
@@ -357,6 +359,16 @@ class Passes {
     if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least, out_.joints);
     if (difference_.force.empty() && context_.shape.checked) leave_errors_open();
     if (chaotic) promise_until_horizons(system_, *coarse_, *fine_, share_while_small_, kPromised * settings_.tolerance, least, chaos_, out_);
+  }
+
+  // Joint forces may be right where the motion is not, as those of a guide across which nothing is driven.
+  void note_on_motion() {
+    constexpr double kUnseen = 30;  // multiple of the tolerance: motions farther apart than this are not explained by errors that the forces show
+    if (out_.of_motion || system_.loads.empty() || !coarse_ || out_.outcome != Outcome::kCompleted) return;
+    const double apart = share_ * motion_difference(system_, coarse_->forces(), fine_->forces());
+    if (!(apart > kUnseen * settings_.tolerance)) return;
+    out_.notes.push_back(fmt::format("the joint forces hardly depend on it, but two integrations place the bodies up to {:.1g} of their longest path apart: forces of springs and motors that depend on positions are as uncertain. "
+                                     "tolerance_of = \"motion\" controls and states the error of the motion", apart));
   }
 
   // There was no second pass to estimate them.
@@ -371,31 +383,6 @@ class Passes {
     include_peaks(fine_->loads(), 1, difference_);
     relative_difference_ = relative_differences(system_, difference_);
     if (!out_.of_motion) error_ = share_ * largest_of(relative_difference_);
-  }
-
-  // Each event includes what its joint has lost since its previous event. Where surfaces stick, the energy stored by friction passes to their spring; it is lost again when they slip.
-  void fill_events() {
-    std::vector<JointEvents> of_joint(system_.joints.size());
-    const std::vector<double>& heat = fine_->heat_at_crossings();
-    const bool with_heat = heat.size() == last_.crossings.size();
-    std::vector<double> lost(system_.joints.size(), 0);
-    for (std::size_t i = 0; i < last_.crossings.size(); ++i) {
-      const LawCrossing& crossing = last_.crossings[i];
-      const auto j = static_cast<std::size_t>(crossing.joint);
-      JointEvent event{crossing.t, system_.joints[j].law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen};
-      if (with_heat) {
-        event.values.push_back(std::max(0.0, heat[i] - lost[j]));
-        lost[j] = std::max(lost[j], heat[i]);
-      }
-      of_joint[j].events.push_back(std::move(event));
-    }
-    for (std::size_t j = 0; j < of_joint.size(); ++j) {
-      if (of_joint[j].events.empty()) continue;
-      of_joint[j].joint = system_.joints[j].name;
-      for (const LawColumn& column : system_.joints[j].law.columns()) of_joint[j].columns.push_back({column.name, column.unit, column.meaning});
-      if (with_heat) of_joint[j].columns.push_back({"heat", "J", "what the joint has turned into heat since its event before; of surfaces that stick, what their springs do not give back"});
-      out_.events.push_back(std::move(of_joint[j]));
-    }
   }
 
   // Up to which time the run meets the tolerance, in words.

@@ -50,6 +50,16 @@ System make_ideal(System system) {
   return system;
 }
 
+void name_undetermined_reactions(const std::vector<CheckRedundancy>& groups, const std::function<bool(const std::string&)>& is_ideal, const char* what, std::vector<std::string>& notes,
+                                 std::vector<std::string>& not_unique) {
+  for (const CheckRedundancy& group : groups) {
+    if (std::none_of(group.members.begin(), group.members.end(), [&](const CheckRedundancy::Member& member) { return is_ideal(member.joint); })) continue;  // their laws share the loads
+    notes.push_back(fmt::format("{}: {} redundant constraint{} among {}: the motion is unique, these reactions are not", what, group.degree, group.degree == 1 ? "" : "s", list_of_members(group)));
+    for (const auto& member : group.members)
+      if (std::find(not_unique.begin(), not_unique.end(), member.joint) == not_unique.end()) not_unique.push_back(member.joint);
+  }
+}
+
 IdealRows choose_ideal_rows(System system, const Vecs& q) {
   IdealRows out;
   const MobilityCheck mobility = check_mobility(system, q);
@@ -61,16 +71,10 @@ IdealRows choose_ideal_rows(System system, const Vecs& q) {
     JointData& joint = system.joints[rows[i].joint];
     joint.redundant[rows[i].component] = true;
   }
-  const auto is_ideal = [&system](const CheckRedundancy::Member& member) {
-    return std::any_of(system.joints.begin(), system.joints.end(), [&member](const JointData& joint) { return joint.ideal && joint.name == member.joint; });
+  const auto is_ideal = [&system](const std::string& name) {
+    return std::any_of(system.joints.begin(), system.joints.end(), [&name](const JointData& joint) { return joint.ideal && joint.name == name; });
   };
-  for (const CheckRedundancy& group : mobility.redundancies) {
-    if (std::none_of(group.members.begin(), group.members.end(), is_ideal)) continue;  // their laws share the loads
-    out.notes.push_back(fmt::format("ideal joints: {} redundant constraint{} among {}: the motion is unique, these reactions are not", group.degree,
-                                    group.degree == 1 ? "" : "s", list_of_members(group)));
-    for (const auto& member : group.members)
-      if (std::find(out.not_unique.begin(), out.not_unique.end(), member.joint) == out.not_unique.end()) out.not_unique.push_back(member.joint);
-  }
+  name_undetermined_reactions(mobility.redundancies, is_ideal, "ideal joints", out.notes, out.not_unique);
   out.system = std::move(system);
   return out;
 }

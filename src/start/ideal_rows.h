@@ -1,9 +1,11 @@
 // The gap components constrained by the ideal equations: those of all ideal joints except the redundant ones.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "mobility/mobility.h"
 #include "system/system.h"
 
 namespace pintle {
@@ -16,6 +18,11 @@ struct IdealRows {
 
 /// `system` with every joint that has a linear law, and every servo, marked as ideal.
 [[nodiscard]] System make_ideal(System system);
+
+/// Notes the groups of redundant constraints that have a joint for which `is_ideal` holds, and collects the joints whose reactions they leave undetermined. `what` are the
+/// joints without compliance, in words.
+void name_undetermined_reactions(const std::vector<CheckRedundancy>& groups, const std::function<bool(const std::string&)>& is_ideal, const char* what, std::vector<std::string>& notes,
+                                 std::vector<std::string>& not_unique);
 
 /// Finds which components are redundant at the assembled positions q. Reactions of omitted components are zero.
 /// theory/ideal section 3.

@@ -151,9 +151,21 @@ void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<s
   }
 }
 
+constexpr std::size_t kMostBodies = 200;  // finding the rank of the constraints of larger mechanisms takes long
+
+// Joints of the tree are ideal in relative coordinates: how they share a load with the opened joints depends on which are opened.
+void note_undetermined_reactions(const System& system, const JointTree& tree, Assembly& assembly) {
+  if (system.bodies.size() > kMostBodies) return;
+  const auto is_in_tree = [&](const std::string& name) {
+    for (int j = 0; j < system.n_joints(); ++j)
+      if (system.joints[j].name == name) return tree.in_tree(j);
+    return false;
+  };
+  name_undetermined_reactions(check_mobility(system, assembly.state.q).redundancies, is_in_tree, "relative coordinates, in which only opened joints are compliant", assembly.notes, assembly.not_unique);
+}
+
 // Several speed or position motors on fewer degrees of freedom: the differences between their demands deflect joints.
 void note_conflicting_motors(const System& system, const Vecs& q, std::vector<std::string>& notes) {
-  constexpr std::size_t kMostBodies = 200;  // finding the rank of larger mechanisms takes long
   std::string names;
   int servos = 0;
   for (const JointData& joint : system.joints) {
@@ -184,6 +196,7 @@ Assembly start_as_asked(const Model& model, double known_span) {
   if (!tree.all_free()) {
     for (int j = 0; j < system.n_joints(); ++j)
       if (tree.in_tree(j)) assembly.system.joints[j].law = system.joints[j].law;
+    note_undetermined_reactions(system, tree, assembly);
     convert_to_tree(assembly.system, is_preloaded(model.simulate.start), assembly.state);
   }
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
