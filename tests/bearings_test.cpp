@@ -229,5 +229,17 @@ TEST(Table, CarriesALoadAtTheDisplacementOfItsPoint) {
   for (const std::size_t i : {std::size_t{0}, run.n_rows() - 1}) EXPECT_NEAR(run.at(i, run.column("body.ring.y")), -3e-5, 1e-11) << i;
 }
 
+// The load F sin(wt) and the angle a sin(wt) pass through zero together, where neither the magnitude of the force nor the speed is smooth at the same instants.
+TEST(BearingLoads, ALoadInPhaseWithTheSwing) {
+  for (const char* tolerance : {"1e-4", "1e-6"}) {
+    const Trajectory run = completed(reference::test_model("swinging_roller_bearing", {std::string("simulate.tolerance=") + tolerance}));
+    ASSERT_EQ(run.bearings.size(), 1u);
+    const LoadSummary& pin = run.joints.front();
+    const double p = 10.0 / 3, stated = std::max(pin.error_estimate, 2e-5 * 1000);  // the servo lags by that much
+    EXPECT_NEAR(pin.mean, 2000 / kPi, stated) << tolerance;
+    EXPECT_NEAR(run.bearings.front().equivalent_load, 1000 * std::pow(p + 1, -1 / p), stated) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -80,5 +80,16 @@ TEST(MotionAccuracySteps, StiffnessDoesNotMatter) {
   EXPECT_LT(2 * most, 3 * least);
 }
 
+// The guide carries the weight, whatever the slide does on it: no joint force shows that the motion is lost.
+TEST(MotionNote, AMotionThatNoJointForceShowsIsNamed) {
+  const auto names_it = [](const Trajectory& run) {
+    return std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("tolerance_of = \"motion\"") != std::string::npos; });
+  };
+  const Trajectory lost = simulate(reference::test_model("duffing_slide"));
+  EXPECT_EQ(lost.outcome, Outcome::kCompleted) << lost.message;
+  EXPECT_TRUE(names_it(lost));
+  EXPECT_FALSE(names_it(simulate(reference::test_model("duffing_slide", {"simulate.duration=5"}))));
+}
+
 }  // namespace
 }  // namespace pintle

@@ -138,5 +138,37 @@ TEST(PenaltyRuns, AreComparedWithCompliantJoints) {
   }
 }
 
+// A rigid mechanism cannot follow a jump, with whatever equations it is kept closed.
+TEST(PenaltyRuns, TargetsThatJumpAreRefused) {
+  for (const Equations equations : {Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
+    for (const char* motor : {"motor.m.position=\"0.5*t + 0.3*step(t-0.6)\"", "motor.m.position=\"0.5*t + 0.3*max(t-0.6, 0)\""}) {
+      Model model = reference::test_model("crank_rocker_jump", {motor});
+      model.simulate.equations = equations;
+      const Trajectory run = simulate(model);
+      EXPECT_EQ(run.outcome, Outcome::kFailed) << to_word(equations) << run.message;
+      EXPECT_NE(run.message.find("motor m is to"), std::string::npos) << to_word(equations) << run.message;
+      EXPECT_NEAR(run.t_end, 0.6, 0.01) << to_word(equations);
+    }
+}
+
+// At a change point a penalty may leave the branch, and the augmented Lagrangian's reactions have peaks that no tolerance finds: neither is "completed". Ideal joints
+// go on along the smooth branch, where the crank keeps its speed: 1 kg at 0.15 m and 2 kg at 0.3 m of each crank's end shared by both.
+TEST(PenaltyRuns, WrongForcesAtChangePointsAreNotCompleted) {
+  const auto run_as = [](Equations equations) {
+    Model model = reference::test_model("parallelogram_ideal");
+    model.simulate.equations = equations;
+    return simulate(model);
+  };
+  const Trajectory ideal = run_as(Equations::kIdeal);
+  ASSERT_EQ(ideal.outcome, Outcome::kCompleted) << ideal.message;
+  EXPECT_NEAR(ideal.joints[0].peak, 36 * (0.15 + 0.3), 1e-3);
+  for (const Equations equations : {Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented}) {
+    const Trajectory run = run_as(equations);
+    if (run.outcome == Outcome::kCompleted)
+      for (const LoadSummary& joint : run.joints) EXPECT_NEAR(joint.peak, ideal.joints[&joint - run.joints.data()].peak, 3 * std::max(joint.error_estimate, 1e-5 * joint.peak)) << to_word(equations) << joint.name;
+  }
+  EXPECT_EQ(run_as(Equations::kPenalty).outcome, Outcome::kEnergyOpen);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -312,5 +312,16 @@ TEST(RelativeRope, ARopeMarkedIdealIsOpenedAndRuns) {
   EXPECT_EQ(std::count_if(run.notes.begin(), run.notes.end(), [](const std::string& line) { return line.find("is opened: a r") != std::string::npos; }), 2);
 }
 
+// The closed joints have no compliance: how they share the load with those that are opened depends on the order in which the model names them.
+TEST(RelativeRedundancy, ReactionsOfRedundantJointsAreNotUnique) {
+  Model model = reference::test_model("three_ideal_cranks");
+  const auto undetermined = [](const Trajectory& run) { return std::count_if(run.joints.begin(), run.joints.end(), [](const LoadSummary& joint) { return !joint.unique; }); };
+  EXPECT_EQ(undetermined(completed(model)), 0);  // compliant: shared by stiffness
+  model.simulate.equations = Equations::kRelative;
+  const Trajectory run = completed(model);
+  EXPECT_GT(undetermined(run), 3);
+  EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("these reactions are not") != std::string::npos; }));
+}
+
 }  // namespace
 }  // namespace pintle

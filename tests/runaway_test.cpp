@@ -125,5 +125,27 @@ TEST(TornJoints, AreNotedWithWhatFeedsThem) {
   EXPECT_EQ(notes_of(simulate(reference::mechanism("crane_bushing"))).find("torn"), std::string::npos);  // soft by design
 }
 
+// It turns faster and faster until its pin gives way; the pin's damper then takes what the motor feeds.
+TEST(Runaway, AControllerThatTearsAPinOpenIsNamed) {
+  for (const char* duration : {"1 s", "2 s", "10 s"}) {
+    const Trajectory run = simulate(reference::test_model("pendulum_wrong_signs", {std::string("simulate.duration=\"") + duration + "\""}));
+    ASSERT_EQ(run.outcome, Outcome::kRunaway) << duration << ": " << run.message;
+    EXPECT_NE(run.message.find("motor m feeds it"), std::string::npos) << run.message;
+    EXPECT_NE(run.message.find("joint O was torn open"), std::string::npos) << run.message;
+    EXPECT_LT(run.t_end, 0.6);
+    EXPECT_LT(run.counters.steps, 3000u);
+  }
+}
+
+// Its energy grows exponentially over eight powers of ten, and then no more.
+TEST(Runaway, ALimitCycleFromASmallStartIsNot) {
+  const Trajectory run = simulate(reference::test_model("van_der_pol_slide"));
+  ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  const int slide = run.column("joint.g.slide");
+  double amplitude = 0;
+  for (std::size_t i = run.n_rows() / 2; i < run.n_rows(); ++i) amplitude = std::max(amplitude, std::abs(run.at(i, static_cast<std::size_t>(slide))));
+  EXPECT_NEAR(amplitude, 10, 0.02);  // twice the displacement at which its damping vanishes
+}
+
 }  // namespace
 }  // namespace pintle

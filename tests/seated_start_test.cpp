@@ -170,5 +170,18 @@ TEST(SeatedStart, APinThatOtherCranksHoldInTheMiddleIsLeftOpen) {
   EXPECT_TRUE(notes_have(run, "stay in the middle of their play: B"));
 }
 
+// A pin that slides in its bush from the first instant does not know of its static friction: equal coefficients give the forces without stiction, and a first row
+// without a blow.
+TEST(SeatedStart, APinThatSlidesBeginsWithoutTheFrictionOfAStuckOne) {
+  const std::string equal = "joint.B.friction_coefficient=0.15";
+  Model sliding = reference::test_model("four_bar_seated_stiction", {equal});
+  sliding.simulate.duration = 0.01;
+  const Trajectory with = completed(sliding);
+  for (const LoadSummary& joint : with.joints) EXPECT_LT(joint.peak, 400) << joint.name;
+  Model ramp = reference::test_model("four_bar_seated_stiction", {equal, "simulate.duration=0.01", "joint.B.static_friction=0"});
+  const Trajectory without = completed(ramp);
+  for (std::size_t j = 0; j < with.joints.size(); ++j) EXPECT_NEAR(with.joints[j].peak, without.joints[j].peak, 0.02 * without.joints[j].peak) << with.joints[j].name;
+}
+
 }  // namespace
 }  // namespace pintle

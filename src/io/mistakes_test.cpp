@@ -299,5 +299,21 @@ TEST(Mistakes, JsonIsLocatedToo) {
   }
 }
 
+// Hertz are no turns per second, by whatever way they come to a rotational speed.
+TEST(Mistakes, AFrequencyBehindAParameterIsNoSpeed) {
+  const auto complaint = [](const std::string& parameters, const std::string& speed) -> std::string {
+    try {
+      parse_model("format = 1\n[parameters]\n" + parameters + "\n[body.a]\nmass = 1\ninertia = 1\nspin = \"" + speed + "\"\n", "m.toml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* speed : {"f", "2*f", "5 Hz", "f/2"}) EXPECT_NE(complaint("f = \"5 Hz\"", speed).find("a frequency is not turns per second"), std::string::npos) << speed;
+  EXPECT_NE(complaint("f = \"5 Hz\"\ng = \"2*f\"", "g").find("a frequency is not turns per second"), std::string::npos);
+  for (const char* speed : {"2*pi*f", "f*1 rev", "300 rpm"}) EXPECT_EQ(complaint("f = \"5 Hz\"", speed), "") << speed;
+  EXPECT_EQ(complaint("T = \"1/(5 Hz)\"", "1 rev/T"), "");
+}
+
 }  // namespace
 }  // namespace pintle

@@ -146,5 +146,22 @@ TEST(ModelVariants, GoOnAfterAFaultyOne) {
   }
 }
 
+// A bare number would not do for a parameter that has the name of a unit.
+TEST(ModelVariants, ParametersKeepTheirUnits) {
+  const std::string text = R"(format = 1
+[parameters]
+m = "1 kg"
+[body.a]
+mass = "m"
+inertia = "0.1*m*(1 m)^2"
+)";
+  ModelVariants variants(parse_document(text, "m.toml"), {"parameters.m"});
+  for (const double value : {1.0, 0.1, 2.5e-7}) {
+    const Model read = variants.at(std::vector{value});
+    EXPECT_EQ(read.bodies[0].mass, value);
+    EXPECT_EQ(read.bodies[0].inertia, 0.1 * value);
+  }
+}
+
 }  // namespace
 }  // namespace pintle

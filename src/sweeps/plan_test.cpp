@@ -54,6 +54,20 @@ TEST(SweepPlan, PathsLeadToNumbers) {
     EXPECT_TRUE(contains(complaint_about(request({wrong})), "this is not the path of a number")) << wrong << complaint_about(request({wrong}));
 }
 
+TEST(SweepPlan, AFrequencyIsNoSpeed) {
+  EXPECT_TRUE(contains(complaint_about(request({"body.bob.spin=5,10 Hz"})), "a frequency is not turns per second"));
+  EXPECT_EQ(complaint_about(request({"body.bob.spin=5,10 rad/s"})), "");
+}
+
+// Of the last and of the first sample, and of those between.
+TEST(SweepPlan, SeriesNeedTheSameTimesInEverySample) {
+  for (const char* durations : {"simulate.duration=0.5,1 s", "simulate.duration=1,0.5,1 s"}) {
+    SweepRequest r = request({durations});
+    r.series = {"joint.pin.on_bob.fx[world]"};
+    EXPECT_TRUE(contains(complaint_about(r), "series need the same ones in every sample")) << complaint_about(r);
+  }
+}
+
 TEST(SweepPlan, TheLastVaryRunsFastest) {
   const SweepPlan plan = plan_of(request({"body.bob.mass=1,2", "joint.pin.damping=10,20,30"}));
   ASSERT_EQ(plan.size(), 6u);
