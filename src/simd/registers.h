@@ -58,7 +58,10 @@ template <class Reals>
 PINTLE_LANES void set_lane(Reals& to, int i, double x) {
   to[i] = x;
 }
-PINTLE_LANES void set_lane(EightReals& to, int i, double x) { (i < 4 ? to.low[i] : to.high[i - 4]) = x; }
+PINTLE_LANES void set_lane(EightReals& to, int i, double x) {
+  if (i < 4) to.low[i] = x;
+  else to.high[i - 4] = x;
+}
 
 /// The same bits, read as integers or as numbers.
 PINTLE_LANES TwoBits bits_of(const TwoReals& a) { return (TwoBits)a; }
