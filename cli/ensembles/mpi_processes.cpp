@@ -32,12 +32,12 @@ std::string receive(int source, int tag, const MPI_Status& status) {
 
 void send(int to, int tag, const void* bytes, std::size_t size) { MPI_Send(bytes, static_cast<int>(size), MPI_BYTE, to, tag, MPI_COMM_WORLD); }
 
-std::vector<FinishedChunk> chunks_of(std::string_view bytes) {
+std::vector<FinishedChunk> chunks_of(std::string_view bytes, std::uint64_t per_chunk) {
   std::vector<FinishedChunk> out;
   for (std::size_t at = 0; at < bytes.size();) {
     auto frame = read_frame(bytes, at);
     if (!frame) throw std::runtime_error("a message between processes is damaged");
-    const std::uint64_t chunk = frame->sample / kSamplesPerChunk;
+    const std::uint64_t chunk = frame->sample / per_chunk;
     if (out.empty() || out.back().chunk != chunk) out.push_back({chunk, {}});
     out.back().results.push_back(std::move(frame->result));
   }
@@ -56,7 +56,7 @@ std::string compute(const SweepJob& job, int threads, const std::vector<std::uin
   WorkerPool pool(job, threads, next);
   while (!pool.idle())
     for (const FinishedChunk& chunk : pool.take(1))
-      for (std::size_t k = 0; k < chunk.results.size(); ++k) append_frame(bytes, chunk.chunk * kSamplesPerChunk + k, chunk.results[k]);
+      for (std::size_t k = 0; k < chunk.results.size(); ++k) append_frame(bytes, chunk.chunk * job.samples_per_chunk() + k, chunk.results[k]);
   return bytes;
 }
 
@@ -111,7 +111,7 @@ std::vector<FinishedChunk> MpiProcesses::serve(ChunkQueue& queue) {
     const std::string bytes = receive(status.MPI_SOURCE, kAsk, status);
     std::uint64_t wanted = 0;
     std::memcpy(&wanted, bytes.data(), sizeof wanted);
-    for (FinishedChunk& chunk : chunks_of(std::string_view(bytes).substr(sizeof wanted))) out.push_back(std::move(chunk));
+    for (FinishedChunk& chunk : chunks_of(std::string_view(bytes).substr(sizeof wanted), queue.per_chunk())) out.push_back(std::move(chunk));
     std::vector<std::uint64_t> given;
     while (given.size() < wanted) {
       const auto chunk = queue.next();
@@ -124,7 +124,7 @@ std::vector<FinishedChunk> MpiProcesses::serve(ChunkQueue& queue) {
 }
 
 void MpiProcesses::dismiss() {
-  ChunkQueue nothing(0, [](std::uint64_t) { return true; });
+  ChunkQueue nothing(0, 1, [](std::uint64_t) { return true; });
   while (busy()) {
     serve(nothing);
     std::this_thread::sleep_for(std::chrono::duration<double>(kWait));

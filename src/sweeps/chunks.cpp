@@ -7,7 +7,7 @@
 
 namespace pintle {
 
-ChunkQueue::ChunkQueue(std::uint64_t n_samples, std::uint64_t per_chunk, const std::function<bool(std::uint64_t)>& done) : to_do_((n_samples + per_chunk - 1) / per_chunk) {
+ChunkQueue::ChunkQueue(std::uint64_t n_samples, std::uint64_t per_chunk, const std::function<bool(std::uint64_t)>& done) : per_chunk_(per_chunk), to_do_((n_samples + per_chunk - 1) / per_chunk) {
   for (std::uint64_t i = 0; i < n_samples; ++i)
     if (!done(i)) to_do_[i / per_chunk] = true;
 }

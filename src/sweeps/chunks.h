@@ -22,11 +22,12 @@ class ChunkQueue {
   /// `done` tells which samples already exist.
   ChunkQueue(std::uint64_t n_samples, std::uint64_t per_chunk, const std::function<bool(std::uint64_t)>& done);
   std::optional<std::uint64_t> next();
+  std::uint64_t per_chunk() const { return per_chunk_; }
   void close();  ///< no further chunks are handed out
 
  private:
   std::mutex mutex_;
-  std::uint64_t next_ = 0;
+  std::uint64_t per_chunk_, next_ = 0;
   std::vector<bool> to_do_;
 };
 

@@ -24,7 +24,7 @@ class Collection {
  public:
   Collection(const SweepJob& job, Journal& journal, const SweepObserver& observer, Remote* remote)
       : job_(job), journal_(journal), observer_(observer), remote_(remote), resumed_(journal.n_done()),
-        per_chunk_(job.samples_per_chunk()), queue_(job.plan().size(), per_chunk_, [&journal](std::uint64_t i) { return journal.has(i); }) {}
+        queue_(job.plan().size(), job.samples_per_chunk(), [&journal](std::uint64_t i) { return journal.has(i); }) {}
 
   /// True if the journal has every sample at the end.
   bool run(int threads) {
@@ -53,7 +53,7 @@ class Collection {
   void keep(const std::vector<FinishedChunk>& finished) {
     for (const FinishedChunk& chunk : finished)
       for (std::size_t k = 0; k < chunk.results.size(); ++k) {
-        const std::uint64_t sample = chunk.chunk * per_chunk_ + k;
+        const std::uint64_t sample = chunk.chunk * queue_.per_chunk() + k;
         if (!journal_.has(sample)) journal_.add(sample, chunk.results[k]);
       }
     if (!finished.empty()) journal_.flush(false);  // a kill costs no finished work
@@ -78,7 +78,7 @@ class Collection {
   Journal& journal_;
   const SweepObserver& observer_;
   Remote* remote_;
-  std::uint64_t resumed_, per_chunk_;
+  std::uint64_t resumed_;
   ChunkQueue queue_;
   Stopwatch watch_;
   double reported_ = 0, synced_ = 0;
