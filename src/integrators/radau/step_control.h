@@ -235,6 +235,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   bool up_to_event = false, refused = false;  // refused by Newton's iteration
   double error_before = 0;                   // of the previous attempt, relative to the tolerance
   int steady = 0;                            // consecutive attempts that were shorter, but no better
+  double steady_from = 0;                    // the first and longest of them [s]
   bool renewed = false;                      // the start has been, for this attempt
   int crossed = 0;                           // events crossed at its start
   SwitchingEvent ahead;                      // the last event located
@@ -304,11 +305,13 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (error > 1 && !jump) {
       ++counters.rejected;
       steady = measured > kSteady * error_before ? steady + 1 : 0;
+      if (steady == 1) steady_from = h;
       error_before = measured;
       renewed = steady == kMostSteady;
       if (renewed) {
         method.rebalance_end();
         method.begin_at_end();
+        h = steady_from;  // it was not too long
       } else {
         h *= std::min(factor, 0.7);
       }
