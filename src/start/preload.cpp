@@ -14,6 +14,8 @@
 namespace pintle {
 namespace {
 
+constexpr double kAbsurd = 100;  // ratio of the largest forces of two passes: the passes diverge, whatever the gaps. Strongly bent blades whose passes converge grow by 3
+
 // Springs replace laws that give no force where the joints are; joints that start free or touch nothing are left alone.
 template <class S>
 std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
@@ -148,6 +150,8 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   bool fits = true;
   OneSided<S> one_sided{VecsOf<S>(joints, S::Vec::Zero()), VecsOf<S>(joints, S::Vec::Zero())};
   const BasicState<S> taut = state;
+  const bool starts_free = std::any_of(system.joints.begin(), system.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.starts_free(); });
+  double last_found = 0;  // largest force of the previous pass
   for (int pass = 0; pass < (fits ? kPreloadPasses : kRedundantPasses); ++pass) {
     const BasicState<S> before = state;
     if (pass == 0 && firm) {
@@ -156,7 +160,11 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     } else if (!forces.find(state)) {
       break;
     }
-    forces.find_gaps(state);
+    const double found = largest_force(state.force), found_before = std::exchange(last_found, found);
+    // The gaps of absurd forces are costly to find, and only for one-sided joints of any use.
+    const bool absurd = !starts_free && pass > (firm ? 1 : 0) && found > kAbsurd * found_before;
+    const bool grows = absurd || (pass > (firm ? 1 : 0) && found > kMostGrowth * largest_force(before.force));
+    if (!absurd) forces.find_gaps(state);
     if (one_sided.add(system, taut, state)) {
       forces.release(one_sided.left, one_sided.slack);
       state = taut;
@@ -168,7 +176,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
         if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
     // Where joints have deflected, redundant ones may hold what was free: the projection then holds components that are not held, and the passes
     // diverge.
-    if (pass > (firm ? 1 : 0) && largest_force(state.force) > kMostGrowth * largest_force(before.force)) {
+    if (grows) {
       if (moves_too_far(system, unloaded, before)) return void(state = unloaded);
       state = before;
       break;
