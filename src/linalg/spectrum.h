@@ -40,7 +40,7 @@ struct Spectrum {
   // One register: complex numbers in the lanes before kReal, a real number in those from there on.
   template <class R, int kReal>
   struct Mixed {
-    static constexpr int kLanes = sizeof(R) / sizeof(double);
+    static constexpr int kLanes = sizeof(R) / sizeof(double);  // of the register
     PINTLE_LANES static R product(const R& a, const R& b) {
       if constexpr (kReal == 0) return a * b;
       else return real_parts(a) * b + imaginary_parts(a) * (signs(-1, 1, 0) * swapped(b));
