@@ -27,7 +27,7 @@ TEST(Runaway, AControllerOfTheWrongSignIsNamed) {
   const Trajectory run = simulate(reference::test_model("cart_and_pole_wrong_sign"));
   ASSERT_EQ(run.outcome, Outcome::kRunaway) << run.message;
   EXPECT_NE(run.message.find("motor controller feeds it"), std::string::npos) << run.message;
-  EXPECT_NE(run.message.find("at t = 0.40"), std::string::npos) << run.message;  // when its energy exceeded what can be stored
+  EXPECT_NE(run.message.find("at t = 0.42"), std::string::npos) << run.message;  // when its energy exceeded what can be stored
   EXPECT_LT(run.t_end, 3);
   EXPECT_GT(run.n_rows(), 10u);
   EXPECT_LT(run.counters.steps, 10000u);
@@ -111,16 +111,17 @@ TEST(EnergyAccount, IsClosedByAFinerPass) {
   }
 }
 
-// The damper of its pin dissipates what the controller feeds: nothing runs away, but what is left is not a machine any more.
+// The damper of its pin dissipates what the controller feeds: its energy grows no more, but what is left is not a machine.
 TEST(TornJoints, AreNotedWithWhatFeedsThem) {
   const auto notes_of = [](const Trajectory& run) {
     std::string all;
     for (const std::string& note : run.notes) all += note + "\n";
     return all;
   };
-  const std::string notes = notes_of(simulate(reference::test_model("arm_with_wrong_sign")));
-  EXPECT_NE(notes.find("joint J is torn open by 0.3 m, 122 % of the mechanism's size, at t = 2 s"), std::string::npos) << notes;
-  EXPECT_NE(notes.find("motor m has fed 2.11e+09 J"), std::string::npos) << notes;
+  const Trajectory run = simulate(reference::test_model("arm_with_wrong_sign"));
+  EXPECT_EQ(run.outcome, Outcome::kRunaway) << run.message;
+  EXPECT_NE(run.message.find("motor m feeds it"), std::string::npos) << run.message;
+  EXPECT_NE(notes_of(run).find("joint J is torn open by 0.025 m, 10 % of the mechanism's size, at t = 0.4094 s"), std::string::npos) << notes_of(run);
   EXPECT_EQ(notes_of(simulate(reference::mechanism("four_bar"))).find("torn"), std::string::npos);
   EXPECT_EQ(notes_of(simulate(reference::mechanism("crane_bushing"))).find("torn"), std::string::npos);  // soft by design
 }

@@ -278,7 +278,9 @@ BasicResponse<S> BasicLaw<S>::holding(const typename S::Vec& gap, const typename
 template <class S>
 BasicResponse<S> BasicLaw<S>::holding_of_parts(const typename S::Vec& gap, const typename S::Vec& rate) const {
   double state[kMostLawStates];
-  rest({0, gap, rate, state}, state);  // surfaces in contact that slide at this rate do not stick
+  const typename S::Vec still = S::Vec::Zero();
+  rest({0, gap, still, state}, state);
+  if (stiction(state)) rest({0, gap, rate, state}, state);  // surfaces in contact that slide at this rate do not stick
   BasicLawTangents<S> tangents;
   linearize({0, gap, rate, state}, tangents);
   // States that do not change at rest, such as friction within rubber, stay as they are.

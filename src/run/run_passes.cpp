@@ -364,10 +364,11 @@ class Passes {
 
   // Joint forces may be right where the motion is not, as those of a guide across which nothing is driven.
   void note_on_motion() {
-    constexpr double kUnseen = 30;  // multiple of the tolerance: motions farther apart than this are not explained by errors that the forces show
+    constexpr double kUnseen = 30;   // multiple of the tolerance: motions farther apart than this are not explained by errors that the forces show
+    constexpr double kStill = 1e-3;  // fraction of the mechanism's size: bodies that move less are at rest
     if (out_.of_motion || system_.loads.empty() || !coarse_ || out_.outcome != Outcome::kCompleted) return;
     const double apart = share_ * motion_difference(system_, coarse_->forces(), fine_->forces());
-    if (!(apart > kUnseen * settings_.tolerance)) return;
+    if (!(apart > kUnseen * settings_.tolerance) || longest_path(system_, fine_->forces()) < kStill * std::max(largest_coordinate(start_.q), system_.largest_radius_of_gyration())) return;
     out_.notes.push_back(fmt::format("the joint forces hardly depend on it, but two integrations place the bodies up to {:.1g} of their longest path apart: forces of springs and motors that depend on positions are as uncertain. "
                                      "tolerance_of = \"motion\" controls and states the error of the motion", apart));
   }

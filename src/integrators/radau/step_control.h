@@ -83,6 +83,7 @@ class StepControl {
   static constexpr double kSteady = 0.9;          // fraction of the error of the previous attempt: above it, a shorter step has not reduced the error
   static constexpr int kMostSteady = 3;           // shorter steps in a row that have not reduced the error, after which it is attributed to the accelerations at the start of the step
   static constexpr double kMostRounding = 1e-11;  // fraction of the loads, a hundredth of the smallest tolerance: the largest error that may be rounding
+  static constexpr double kPerhapsRounding = 1e-7;  // fraction of the loads: a smaller error that does not depend on the step says nothing about its length, once the accelerations are renewed; a larger one may be a jump
   static constexpr double kVeryShort = 1e-6;      // fraction of the run: shorter steps that do not grow may have reached a floor of rounding
   static constexpr int kMostAtFloor = 20;         // very short steps in a row, after which one twice as long is tried
   static constexpr double kShort = 0.9;           // fraction of the distance to an event that is only estimated: the next attempt covers this much
@@ -311,7 +312,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       if (renewed) {
         method.rebalance_end();
         method.begin_at_end();
-        h = steady_from;  // it was not too long
+        if (measured * tolerance < kPerhapsRounding) h = steady_from;  // it was not too long
       } else {
         h *= std::min(factor, 0.7);
       }

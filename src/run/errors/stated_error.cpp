@@ -158,18 +158,22 @@ std::vector<double> relative_differences(const BasicSystem<S>& system, const Pas
 }
 
 template <class S>
+double longest_path(const BasicSystem<S>& system, const BasicForceTable<S>& table) {
+  const std::size_t bodies = system.bodies.size();
+  double way = 0;
+  for (std::size_t at = 0; at < table.place.size(); ++at) way = std::max(way, distance<S>(table.place[at], table.place[at % bodies], system.bodies[at % bodies].radius_of_gyration()));
+  return way;
+}
+
+template <class S>
 DifferenceCurve motion_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
   const std::size_t bodies = system.bodies.size();
   DifferenceCurve curve;
-  double way = 0;
+  const double way = longest_path(system, fine);
   for (std::size_t row = 0; row < common_rows(coarse, fine); ++row) {
     double difference = 0;
-    for (std::size_t i = 0; i < bodies; ++i) {
-      const double radius = system.bodies[i].radius_of_gyration();
-      const typename S::Coordinates& here = fine.place[row * bodies + i];
-      way = std::max(way, distance<S>(here, fine.place[i], radius));
-      if (coarse.t[row] == fine.t[row]) difference = std::max(difference, distance<S>(here, coarse.place[row * bodies + i], radius));
-    }
+    for (std::size_t i = 0; i < bodies; ++i)
+      if (coarse.t[row] == fine.t[row]) difference = std::max(difference, distance<S>(fine.place[row * bodies + i], coarse.place[row * bodies + i], system.bodies[i].radius_of_gyration()));
     curve.t.push_back(fine.t[row]);
     curve.e.push_back(difference);
   }
@@ -254,6 +258,8 @@ template void include_peak_differences(const BasicLoadRecorder<Planar>& coarse, 
 PINTLE_IN_SPACE(template void include_peak_differences(const BasicLoadRecorder<Spatial>& coarse, const BasicLoadRecorder<Spatial>& fine, PassDifference& c);)
 PINTLE_IN_SPACE(template void include_peaks(const BasicLoadRecorder<Spatial>& fine, double part, PassDifference& c);)
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
+template double longest_path(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& table);
+PINTLE_IN_SPACE(template double longest_path(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& table);)
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);

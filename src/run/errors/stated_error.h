@@ -43,6 +43,9 @@ std::vector<double> relative_differences(const BasicSystem<S>& system, const Pas
 template <class S>
 double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& difference, BasicRingingLoss<S>& ringing, double tolerance);
 
+/// Longest distance of any body from its start; of centres and of points at the radius of gyration [m].
+template <class S>
+double longest_path(const BasicSystem<S>& system, const BasicForceTable<S>& table);
 /// Largest difference of a body's position between two passes, relative to the longest distance of any body from its start [-]; for centres
 /// and for points at the radius of gyration. theory/time Eq. (6.4).
 template <class S>
