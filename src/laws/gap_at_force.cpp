@@ -5,9 +5,36 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace pintle {
+namespace {
+
+// Whether it is a contact whose surfaces stick.
+template <class S>
+bool may_stick(const std::unique_ptr<BasicLawPart<S>>& part) {
+  for (int border = 0; border < part->n_borders() && part->holds(); ++border)
+    if (part->border_name(border, false) == "sticks") return true;
+  return false;
+}
+
+// Of surfaces in contact that slide at this rate, and so do not stick: the damping of stuck ones would carry any force.
+template <class S>
+BasicResponse<S> respond_sliding(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
+  BasicResponse<S> r = respond(law, gap, rate);
+  if (rate.isZero(0) || std::none_of(law.parts().begin(), law.parts().end(), may_stick<S>)) return r;
+  double state[kMostLawStates];
+  law.rest({0, gap, rate, state}, state);
+  BasicLawTangents<S> tangents;
+  law.linearize({0, gap, rate, state}, tangents);
+  r.force = tangents.force;
+  r.stiffness = tangents.stiffness;
+  r.damping = tangents.damping;
+  return r;
+}
+
+}  // namespace
 
 template <class S>
 bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typename S::Vec& b, const typename S::Vec& rate) {
@@ -26,7 +53,7 @@ constexpr double kCarried = 1e-6;                                               
 template <class S>
 void gap_of_springs(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   for (int i = 0; i < kSpringSteps; ++i) {
-    const BasicResponse<S> now = respond(law, gap, rate);
+    const BasicResponse<S> now = respond_sliding(law, gap, rate);
     bool moved = false;
     for (int k = 0; k < S::kDof; ++k) {
       if (!(now.stiffness(k, k) > 0)) continue;
@@ -55,7 +82,7 @@ typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& 
 // The residual force at this gap, over the components in which `missing` is not 0.
 template <class S>
 double miss_at(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& missing, const typename S::Vec& gap) {
-  const typename S::Vec miss = respond(law, gap, rate).force - force;
+  const typename S::Vec miss = respond_sliding(law, gap, rate).force - force;
   double sum = 0;
   for (int k = 0; k < S::kDof; ++k)
     if (missing[k] != 0) sum += miss[k] * miss[k];
@@ -82,7 +109,7 @@ template <class S>
 void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   if (law.starts_free()) return;
   const typename S::Vec engaged = law.engaged_stiffness();
-  const BasicResponse<S> now = respond(law, gap, rate);
+  const BasicResponse<S> now = respond_sliding(law, gap, rate);
   bool weak = overshoots(law, force, rate, now, engaged, gap);
   for (int k = 0; k < S::kDof; ++k) weak = weak || (engaged[k] > 0 && force[k] != 0 && now.stiffness.row(k).isZero(0));
   if (weak) go_out_against(law, force, rate, gap);
@@ -103,7 +130,7 @@ bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typena
   const typename S::Vec engaged = law.engaged_stiffness();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kGapNewton; ++i) {
-    const BasicResponse<S> now = respond(law, gap, rate);
+    const BasicResponse<S> now = respond_sliding(law, gap, rate);
     typename S::Vec missing = now.force - force;
     const typename S::Vec step = newton_step<S>(now, engaged, missing);
     if (!step.allFinite()) return false;
@@ -156,7 +183,7 @@ bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typ
   // The shortest step, as a fraction of the load and of the part already reached. Strongly bent thin blades are not found with steps above 1e-5, or above 1e-2.
   constexpr double kFirst = 1e-6, kLater = 1e-3;
   if (law.n_states() > 0 || law.starts_free()) return false;
-  const BasicResponse<S> start = respond(law, gap, rate);
+  const BasicResponse<S> start = respond_sliding(law, gap, rate);
   if (!resists(law, start)) return false;
   GapPath<S> path(0, gap);
   double done = 0;
@@ -190,7 +217,7 @@ bool go_out_against(const BasicLaw<S>& law, const typename S::Vec& force, const 
     typename S::Vec trial = gap;
     for (int k = 0; k < S::kDof; ++k)
       if (engaged[k] > 0) trial[k] = out[k];
-    const BasicResponse<S> there = respond(law, trial, rate);
+    const BasicResponse<S> there = respond_sliding(law, trial, rate);
     if (!there.force.allFinite()) return false;
     if (there.force.dot(wanted) < wanted.squaredNorm()) continue;
     gap = trial;
@@ -215,7 +242,7 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
   begin_where_it_resists(law, force, rate, gap);
   const typename S::Vec engaged = law.engaged_stiffness();
   for (int i = 0; i < kGapNewton; ++i) {
-    const BasicResponse<S> now = respond(law, gap, rate);
+    const BasicResponse<S> now = respond_sliding(law, gap, rate);
     typename S::Vec missing = now.force - force;
     typename S::Vec step = newton_step<S>(now, engaged, missing);
     if (!step.allFinite()) return false;
@@ -232,7 +259,7 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
 
 template <class S>
 void newton_step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap) {
-  const BasicResponse<S> now = respond(law, gap, rate);
+  const BasicResponse<S> now = respond_sliding(law, gap, rate);
   typename S::Vec missing = now.force - force;
   const typename S::Vec engaged = law.engaged_stiffness();
   if (overshoots(law, force, rate, now, engaged, gap)) return void(gap_at_force(law, force, rate, gap));

@@ -280,7 +280,6 @@ BasicResponse<S> BasicLaw<S>::holding_of_parts(const typename S::Vec& gap, const
   double state[kMostLawStates];
   const typename S::Vec still = S::Vec::Zero();
   rest({0, gap, still, state}, state);
-  if (stiction(state)) rest({0, gap, rate, state}, state);  // surfaces in contact that slide at this rate do not stick
   BasicLawTangents<S> tangents;
   linearize({0, gap, rate, state}, tangents);
   // States that do not change at rest, such as friction within rubber, stay as they are.

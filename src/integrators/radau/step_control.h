@@ -97,6 +97,19 @@ class StepControl {
 
   static constexpr double kLeastError = 0.01;  // relative to the tolerance: a smaller error is no guide to its growth
 
+  // Consecutive attempts that were shorter, but no better.
+  struct Steady {
+    double longest = 0, error = 0;  // the first of them [s]; that of the last attempt, relative to the tolerance
+    int n = 0;
+    // Whether there are now enough of them.
+    bool add(double h, double measured) {
+      n = measured > kSteady * error ? n + 1 : 0;
+      if (n == 1) longest = h;
+      error = measured;
+      return n == kMostSteady;
+    }
+  };
+
   // Where the located position of an event depends on how far the step overshoots it, attempts converge by a constant ratio: after a few of them the
   // next one goes to their limit.
   class Approach {
@@ -234,9 +247,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
   bool up_to_event = false, refused = false;  // refused by Newton's iteration
-  double error_before = 0;                   // of the previous attempt, relative to the tolerance
-  int steady = 0;                            // consecutive attempts that were shorter, but no better
-  double steady_from = 0;                    // the first and longest of them [s]
+  Steady steady;
   bool renewed = false;                      // the start has been, for this attempt
   int crossed = 0;                           // events crossed at its start
   SwitchingEvent ahead;                      // the last event located
@@ -295,7 +306,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       continue;
     }
     error /= tolerance;
-    if (renewed && error < kSteady * error_before && error_before * tolerance < kMostRounding) rounding_ = std::max(rounding_, error_before);
+    if (renewed && error < kSteady * steady.error && steady.error * tolerance < kMostRounding) rounding_ = std::max(rounding_, steady.error);
     renewed = false;
     const double measured = error;
     if (measured * tolerance < kMostRounding && is_floor(h, measured)) rounding_ = std::max(rounding_, measured);
@@ -305,14 +316,11 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (jump) factor = kMost;
     if (error > 1 && !jump) {
       ++counters.rejected;
-      steady = measured > kSteady * error_before ? steady + 1 : 0;
-      if (steady == 1) steady_from = h;
-      error_before = measured;
-      renewed = steady == kMostSteady;
+      renewed = steady.add(h, measured);
       if (renewed) {
         method.rebalance_end();
         method.begin_at_end();
-        if (measured * tolerance < kPerhapsRounding) h = steady_from;  // it was not too long
+        if (measured * tolerance < kPerhapsRounding) h = steady.longest;  // it was not too long
       } else {
         h *= std::min(factor, 0.7);
       }
