@@ -65,10 +65,23 @@ double value_at(const CurveGrid& grid, const double* samples, int stride, double
 /// Square of the magnitude of the vector with the components `samples[i * stride + c]`, c < n, at any fraction of the step.
 double square_at(const CurveGrid& grid, const double* samples, int stride, int n, double x);
 
-/// Integral over the step, in units of the step, by Romberg's rule on every point, or on every second one. Where that rule on half of these points differs
-/// by more than a small part of the result and of `total`, the integral so far, the step is halved until it does not: near the points where a magnitude
-/// has a kink. `at` gives the function at any fraction of the step. theory/time Eq. (5.3).
-double integral_over_step(const CurveGrid::AtPoints& value, double total, const std::function<double(double)>& at, bool every_second = false);
+/// Integral over a step, in units of the step, by Romberg's rule on every point, or on every second one. theory/time Eq. (5.3)
+struct RuleOnGrid {
+  double integral;
+  double allowed;  // difference from the rule on half of these points that is small compared with the integral and with `total`, that of the steps so far
+  bool agrees;     // the difference is not larger
+
+  RuleOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second);
+};
+/// The integral of a function of the fraction of the step, halved until the rules agree.
+double integral_over_parts(const std::function<double(double)>& at, double allowed);
+
+/// Integral over the step of the function `at` of the fraction of the step, with these values at the points. The step is divided only near the kinks of a magnitude.
+template <class At>
+double integral_over_step(const CurveGrid::AtPoints& value, double total, const At& at, bool every_second = false) {
+  const RuleOnGrid rule(value, total, every_second);
+  return rule.agrees ? rule.integral : integral_over_parts(std::cref(at), rule.allowed);
+}
 
 enum class Sums { kOfSize, kWithSign };
 /// Adds a step of h seconds from t0 to `sums`, for the magnitude of a vector of n components with the samples `samples[i * stride + c]`, or for a scalar
