@@ -53,7 +53,7 @@ PeakStatistics statistics_of(const SweepTable& table, std::size_t joint) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   PeakStatistics out{table.joints[joint], kNone, kNone, kNone, kNone, 0, 0, kNone};
   std::vector<double> peaks;
-  bool unknown = false;  // the error of a peak, as that of a chaotic motion
+  bool chaotic = false;  // in some sample, whose peaks have no error
   const std::size_t n = table.joints.size();
   for (std::size_t i = 0; i < table.n_samples(); ++i) {
     const double peak = table.force[i * n + joint], error = table.error[i * n + joint] / std::max(peak, kNegligible * largest_peak(table, i));
@@ -61,10 +61,10 @@ PeakStatistics statistics_of(const SweepTable& table, std::size_t joint) {
     peaks.push_back(peak);
     if (!(peak >= out.least)) out.least_sample = i, out.least = std::isnan(out.least) ? peak : std::min(out.least, peak);
     if (!(peak <= out.most)) out.most_sample = i, out.most = peak;
-    if (!(error <= out.worst_error)) out.worst_error = error;
-    unknown = unknown || !std::isfinite(error);
+    if (std::isfinite(error) && !(error <= out.worst_error)) out.worst_error = error;
+    chaotic = chaotic || static_cast<SampleStatus>(table.status[i]) == SampleStatus::kHorizon;
   }
-  if (unknown) out.worst_error = kNone;
+  if (chaotic) out.worst_error = kNone;
   if (peaks.empty()) return out;
   std::sort(peaks.begin(), peaks.end());
   out.least = peaks.front();

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 
@@ -184,6 +185,14 @@ TEST(SweepReport, StatisticsAreThoseOfTheSamples) {
   EXPECT_EQ(s.least_sample, 0u);
   EXPECT_EQ(table.force[s.most_sample], 100);
   EXPECT_DOUBLE_EQ(s.worst_error, 1e-3);
+}
+
+// Samples that are integrated once have no error estimate of their own.
+TEST(SweepReport, TheErrorIsThatOfTheSamplesThatAreChecked) {
+  SweepTable table = table_of(4);
+  const double worst = peak_statistics(table)[0].worst_error;
+  table.error[1] = table.error[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_DOUBLE_EQ(peak_statistics(table)[0].worst_error, worst);
 }
 
 // The error of a joint without load is measured as in a run: relative to a fraction of what other joints carry.
