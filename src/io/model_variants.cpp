@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/units.h"
+#include "io/variations.h"
 
 namespace pintle {
 namespace {
@@ -43,15 +43,14 @@ ModelVariants::ModelVariants(const Document& document, const std::vector<std::st
   ModelReading whole(document, files);
   read_all(whole);
   whole.complaints.throw_if_any();
-  const auto constants = whole.records.scope.constant;
   base_ = std::move(whole.model);
   markers_of_ = std::move(whole.markers_of);
   type_of_joint_ = std::move(whole.type_of_joint);
   named_tables_ = std::move(whole.tables);
   for (const std::string& path : paths) {
     paths_.push_back(keys_of(path));
-    const auto constant = paths_.back()[0] == "parameters" ? constants(paths_.back()[1]) : std::nullopt;
-    units_.push_back(constant && !constant->dimension.any && !is_pure(constant->dimension) ? " " + to_unit_text(constant->dimension) : "");
+    const auto parameter = paths_.back()[0] == "parameters" ? varied_key(whole, path, {}) : std::nullopt;
+    units_.push_back(parameter && !parameter->unit.empty() ? " " + parameter->unit : "");
     node_at(changing_.root, paths_.back()).value = std::string(kVaried);
     if (paths_.back()[0] == "parameters") parameters_.insert(paths_.back()[1]);
   }

@@ -75,14 +75,14 @@ void BasicEnergyWatch<S>::start(const BasicState<S>& state) {
     elastic += body.gravity.template head<S::kDim>().dot(S::position(state.q[i]));
     storable_ += body.gravity.template head<S::kDim>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
   }
-  storable_ += std::abs(elastic) + work_of_loads(state, size);
+  storable_ += std::abs(elastic) + work_scale_of_loads(state, size);
   deflection_ = {system_, state};
   flow_ = flow(state);
 }
 
 // The work of the loads at the start over the mechanism's size, or a radian.
 template <class S>
-double BasicEnergyWatch<S>::work_of_loads(const BasicState<S>& state, double size) {
+double BasicEnergyWatch<S>::work_scale_of_loads(const BasicState<S>& state, double size) {
   VecsOf<S> loads(system_.bodies.size());
   system_.motions(state.q, state.v, m_);
   system_.external(state.t, m_, loads, state.sliding);
@@ -131,7 +131,7 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
   if (++since_judged_ >= kJudgedEvery)
     if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
   if (const Alarm alarm = judge_growth(state); alarm != Alarm::kNone) return alarm;
-  return judge_joints(state);
+  return judge_torn_joints(state);
 }
 
 template <class S>
@@ -194,8 +194,7 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const Basi
   const double before = decade_[reached_ - 1 - kCompared] - decade_[reached_ - 1 - 2 * kCompared];
   if (!(before > 0) || last > kSteady * before) return Alarm::kNone;  // powers of ten reached within one step show no growth rate
   const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
-  message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, growing tenfold every {:.2g} s{}",
-                         decade_[0], storable_, energy, state.t, span / (2 * kCompared), whose_signs());
+  say_runaway(state, energy, fmt::format(", growing tenfold every {:.2g} s", span / (2 * kCompared)));
   return Alarm::kRunaway;
 }
 
@@ -234,23 +233,22 @@ std::string BasicEnergyWatch<S>::note_on_feeder() const {
 
 // A motion that is fed by what depends on it, until a joint gives way, need not go on growing.
 template <class S>
-typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_joints(const BasicState<S>& state) {
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_torn_joints(const BasicState<S>& state) {
   if (!(std::max(state.supplied, -state.dissipated) > kFarFed * storable_)) return Alarm::kNone;
   const Feeder* most = largest_feeder();
   if (most == nullptr || !most->listens || !(most->work > kFarFed * storable_)) return Alarm::kNone;
   for (std::size_t j = 0; j < system_.joints.size(); ++j)
     if (const double torn = deflection_.of(j, state.force[j].template head<S::kDim>().norm()); torn > kTornOpen) {
-      message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, when joint {} was torn open by {:.2g} m{}", decade_[0], storable_,
-                             state.supplied, state.t, system_.joints[j].name, torn * deflection_.size(), whose_signs());
+      say_runaway(state, state.supplied, fmt::format(", when joint {} was torn open by {:.2g} m", system_.joints[j].name, torn * deflection_.size()));
       return Alarm::kRunaway;
     }
   return Alarm::kNone;
 }
 
 template <class S>
-std::string BasicEnergyWatch<S>::whose_signs() const {
-  const Feeder* most = largest_feeder();
-  return most == nullptr ? "" : fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
+void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy, const std::string& how) {
+  message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s{}", decade_[0], storable_, energy, state.t, how);
+  if (const Feeder* most = largest_feeder()) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
 }
 
 template class BasicEnergyWatch<Planar>;

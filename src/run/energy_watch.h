@@ -43,13 +43,13 @@ class BasicEnergyWatch {
   };
   Alarm judge_account(const BasicState<S>& state);
   Alarm judge_growth(const BasicState<S>& state);
-  Alarm judge_joints(const BasicState<S>& state);
+  Alarm judge_torn_joints(const BasicState<S>& state);
   void add_works(const BasicState<S>& state, double h);
   double potential(const BasicState<S>& state);
-  double work_of_loads(const BasicState<S>& state, double size);
+  double work_scale_of_loads(const BasicState<S>& state, double size);
   double flow(const BasicState<S>& state);
   void say_open(const BasicState<S>& state, double missing, double within);
-  std::string whose_signs() const;
+  void say_runaway(const BasicState<S>& state, double energy, const std::string& how);
   const Feeder* largest_feeder() const;
 
   static constexpr int kDecades = 64;  // number of powers of ten of the storable energy whose times are kept

@@ -122,11 +122,11 @@ double square_at(const CurveGrid& grid, const double* samples, int stride, int n
   return square;
 }
 
-RuleOnGrid::RuleOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second)
+RombergOnGrid::RombergOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second)
     : integral(sum_of(every_second ? kHalf : kAll, value)), allowed(kSame * std::max(std::abs(integral), total)),
       agrees(!(std::abs(integral - sum_of(every_second ? kQuarter : kHalf, value)) > allowed)) {}
 
-double integral_over_parts(const std::function<double(double)>& at, double allowed) {
+double integral_by_halving(const std::function<double(double)>& at, double allowed) {
   return halved_integral(at, 0, 0.5, allowed, kMostHalvings) + halved_integral(at, 0.5, 1, allowed, kMostHalvings);
 }
 

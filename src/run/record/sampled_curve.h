@@ -66,21 +66,21 @@ double value_at(const CurveGrid& grid, const double* samples, int stride, double
 double square_at(const CurveGrid& grid, const double* samples, int stride, int n, double x);
 
 /// Integral over a step, in units of the step, by Romberg's rule on every point, or on every second one. theory/time Eq. (5.3)
-struct RuleOnGrid {
+struct RombergOnGrid {
   double integral;
   double allowed;  // difference from the rule on half of these points that is small compared with the integral and with `total`, that of the steps so far
   bool agrees;     // the difference is not larger
 
-  RuleOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second);
+  RombergOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second);
 };
 /// The integral of a function of the fraction of the step, halved until the rules agree.
-double integral_over_parts(const std::function<double(double)>& at, double allowed);
+double integral_by_halving(const std::function<double(double)>& at, double allowed);
 
 /// Integral over the step of the function `at` of the fraction of the step, with these values at the points. The step is divided only near the kinks of a magnitude.
 template <class At>
 double integral_over_step(const CurveGrid::AtPoints& value, double total, const At& at, bool every_second = false) {
-  const RuleOnGrid rule(value, total, every_second);
-  return rule.agrees ? rule.integral : integral_over_parts(std::cref(at), rule.allowed);
+  const RombergOnGrid romberg(value, total, every_second);
+  return romberg.agrees ? romberg.integral : integral_by_halving(std::cref(at), romberg.allowed);
 }
 
 enum class Sums { kOfSize, kWithSign };
