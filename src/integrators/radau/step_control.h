@@ -83,7 +83,7 @@ class StepControl {
   static constexpr double kSteady = 0.9;          // fraction of the error of the previous attempt: above it, a shorter step has not reduced the error
   static constexpr int kMostSteady = 3;           // shorter steps in a row that have not reduced the error, after which it is attributed to the accelerations at the start of the step
   static constexpr double kMostRounding = 1e-11;  // fraction of the loads, a hundredth of the smallest tolerance: the largest error that may be rounding
-  static constexpr double kPerhapsRounding = 1e-7;  // fraction of the loads: a smaller error that does not depend on the step says nothing about its length, once the accelerations are renewed; a larger one may be a jump
+  static constexpr double kPerhapsRounding = 1e-7;  // fraction of the loads: a smaller error that does not depend on the step says nothing about its length, once the accelerations are renewed; a larger one may be a jump. A bar on a pin (8 rad/s, 30 s) takes 59,000 steps, with half of it 69,000, with double the same; without a limit a four-bar with friction takes three times the steps
   static constexpr double kVeryShort = 1e-6;      // fraction of the run: shorter steps that do not grow may have reached a floor of rounding
   static constexpr int kMostAtFloor = 20;         // very short steps in a row, after which one twice as long is tried
   static constexpr double kShort = 0.9;           // fraction of the distance to an event that is only estimated: the next attempt covers this much

@@ -10,6 +10,7 @@
 
 #include "base/text/name_patterns.h"
 #include "base/text/text_scanner.h"
+#include "base/units.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
 
