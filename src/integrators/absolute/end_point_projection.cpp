@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "integrators/absolute/joint_pack.h"
+#include "integrators/load_scale.h"
 #include "integrators/radau/joint_pull.h"
 #include "integrators/radau/stage_lanes.h"
 #include "integrators/radau/step_error.h"
@@ -85,7 +86,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   }
 
   void project(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) {
-    const double rounding = kLastBits * largest_coordinate(last.q), fastest = largest_coordinate(last.v);
+    const double rounding = rounding_of_gaps<S>(last.q), fastest = largest_coordinate(last.v);
     const double rounding_of_rate = std::max(kLastBits * fastest, std::min(rounding / std::abs(h), kMostOfRates * fastest));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       {

@@ -9,6 +9,7 @@
 #include "integrators/absolute/pose_blocks.h"
 #include "integrators/dense/dense_forces.h"
 #include "integrators/dense/gap_at_nodes.h"
+#include "integrators/load_scale.h"
 #include "integrators/radau/stage_lanes.h"
 #include "integrators/radau/step_error.h"
 #include "integrators/thresholds.h"
@@ -321,7 +322,7 @@ class LaneForces : public BasicDenseForces<S> {
     find_misfits();
     remove_closable_part(&Joint::off);
     remove_closable_part(&Joint::rate_off);
-    const double rounding = kLastBits * largest_coordinate(end.q);
+    const double rounding = rounding_of_gaps<S>(end.q);
     for (std::size_t j = 0; j < joints_.size(); ++j)
       if (joints_[j].pose) add_force_of_geometry(j, rounding);
     bodies_ = on_curves_;
