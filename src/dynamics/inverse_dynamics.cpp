@@ -1,5 +1,6 @@
 #include "dynamics/inverse_dynamics.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,10 +54,16 @@ template <class S>
 double lowest_own_frequency(const BasicSystem<S>& system, const BasicJointData<S>& joint, const BasicJointKinematics<S>& r, const typename S::Vec* moved) {
   typename S::Vec k = joint.law.engaged_stiffness();
   if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r.gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge in contact
-  const typename S::Vec mobility = system.own_mobility(joint.at, r);
+  if (moved) k = k.cwiseProduct(*moved);
+  const auto root = k.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  typename S::Mat own = S::Mat::Zero();
+  if (joint.at.a != kGround) own += r.GA() * system.bodies[joint.at.a].mass.cwiseInverse().asDiagonal() * r.GA().transpose();
+  if (joint.at.b != kGround) own += r.GB() * system.bodies[joint.at.b].mass.cwiseInverse().asDiagonal() * r.GB().transpose();
+  own = root * own * root;
+  const Eigen::SelfAdjointEigenSolver<typename S::Mat> modes(own, Eigen::EigenvaluesOnly);
   double lowest = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < S::kDof; ++c)
-    if (k[c] > 0 && mobility[c] > 0 && (!moved || (*moved)[c] != 0)) lowest = std::min(lowest, std::sqrt(k[c] * mobility[c]));
+  for (const double square : modes.eigenvalues())
+    if (square > kLastBits * modes.eigenvalues().maxCoeff()) lowest = std::min(lowest, std::sqrt(square));
   return lowest;
 }
 

@@ -50,7 +50,7 @@ inline double held_above(double lowest, double acceleration, double size) {
 template <class S>
 double held_above(const BasicSystem<S>& system, double lowest, const VecsOf<S>& loads, const std::vector<typename S::Coordinates>& q);
 
-/// The lowest frequency that the stiffness of a joint gives to its two bodies, if nothing else holds them (only in components that are not 0 in `moved`, if
+/// The lowest frequency of the modes that the stiffness of a joint gives to its two bodies, if nothing else holds them (only in components that are not 0 in `moved`, if
 /// given) [rad/s]; infinity where it has no stiffness.
 template <class S>
 double lowest_own_frequency(const BasicSystem<S>& system, const BasicJointData<S>& joint, const BasicJointKinematics<S>& r, const typename S::Vec* moved = nullptr);

@@ -103,7 +103,11 @@ IdealEquations::IdealEquations(const System& system, Equations equations, const 
   matrix_.setFromTriplets(pattern.begin(), pattern.end());
   if (n > 0) factors_.analyzePattern(matrix_);
   jacobian_.resize(2 * rows_.size());
-  scale_.resize(n);
+  scaled_jacobian_.resize(2 * rows_.size());
+  for (int i = 0; i < n; ++i) {
+    if (i == 0 || rows_[i].joint != rows_[i - 1].joint) joint_rows_.push_back({i, 0, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()});
+    ++joint_rows_.back().n;
+  }
 }
 
 void IdealEquations::read(double t, const Vecs& q, const Vecs& v) {
@@ -117,23 +121,53 @@ void IdealEquations::read(double t, const Vecs& q, const Vecs& v) {
   }
 }
 
+// Rows are scaled so that the matrix of each joint alone is the unit matrix: what is left between them comes from loops. Scaled one by one, the two rows of
+// a pin that holds a small heavy body on a long arm would be nearly dependent wherever the arm lies between their axes. theory/ideal Eq. (1.6).
+void IdealEquations::scale_rows() {
+  for (JointRows& joint : joint_rows_) {
+    const Placement& at = system_.joints[rows_[joint.first].joint].at;
+    Eigen::Matrix3d alone = Eigen::Matrix3d::Identity();
+    for (int i = 0; i < joint.n; ++i)
+      for (int k = 0; k < joint.n; ++k) {
+        alone(i, k) = 0;
+        for (const auto [body, side] : {std::pair(at.a, 0), std::pair(at.b, 1)})
+          if (body != kGround) alone(i, k) += jacobian(joint.first + i, side).cwiseQuotient(system_.bodies[body].mass.transpose()).dot(jacobian(joint.first + k, side));
+      }
+    const Eigen::Vector3d roots = alone.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt();
+    joint.scale = roots.cwiseInverse().asDiagonal();
+    joint.inverse = roots.asDiagonal();
+    if (!has_penalties()) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(joint.scale * alone * joint.scale);
+      const Eigen::Vector3d sizes = modes.eigenvalues().cwiseMax(kLastBits).cwiseSqrt();
+      joint.scale = modes.eigenvectors() * sizes.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * joint.scale;
+      joint.inverse *= modes.eigenvectors() * sizes.asDiagonal() * modes.eigenvectors().transpose();
+    }
+    for (int i = 0; i < joint.n; ++i)
+      for (int side = 0; side < 2; ++side) {
+        Eigen::RowVector3d& row = scaled_jacobian_[2 * (joint.first + i) + side];
+        row.setZero();
+        for (int k = 0; k < joint.n; ++k) row += joint.scale(i, k) * jacobian(joint.first + k, side);
+      }
+  }
+}
+
 bool IdealEquations::factorize() {
   if (rows_.empty()) return true;
+  scale_rows();
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   for (const Product& p : products_)
-    values[p.entry] += jacobian(p.row, p.side).cwiseQuotient(system_.bodies[p.body].mass.transpose()).dot(jacobian(p.other, p.other_side));
-  for (int e = 0; e < matrix_.nonZeros(); ++e)
-    if (row_of_entry_[e] == column_of_entry_[e]) scale_[row_of_entry_[e]] = 1 / std::sqrt(std::max(values[e], std::numeric_limits<double>::min()));
-  for (int e = 0; e < matrix_.nonZeros(); ++e) values[e] *= scale_[row_of_entry_[e]] * scale_[column_of_entry_[e]];
+    values[p.entry] += scaled_jacobian_[2 * p.row + p.side].cwiseQuotient(system_.bodies[p.body].mass.transpose()).dot(scaled_jacobian_[2 * p.other + p.other_side]);
   return has_penalties() ? factorize_with_penalties() : n_redundant_ == 0 ? factorize_sparse() : find_modes();
 }
 
 // theory/penalty Eq. (1.4).
 bool IdealEquations::factorize_with_penalties() {
-  if (first_scale_.size() == 0) first_scale_ = scale_;
+  Eigen::VectorXd scale(matrix_.rows());
+  for (const JointRows& joint : joint_rows_) scale.segment(joint.first, joint.n) = joint.scale.diagonal().head(joint.n);
+  if (first_scale_.size() == 0) first_scale_ = scale;
   for (int e = 0; e < matrix_.nonZeros(); ++e)
-    if (const int row = row_of_entry_[e]; row == column_of_entry_[e]) matrix_.valuePtr()[e] += scale_[row] * scale_[row] / penalty(row);
+    if (const int row = row_of_entry_[e]; row == column_of_entry_[e]) matrix_.valuePtr()[e] += scale[row] * scale[row] / penalty(row);
   factors_.factorize(matrix_);
   return factors_.info() == Eigen::Success;
 }
@@ -156,16 +190,28 @@ bool IdealEquations::find_modes() {
   return true;
 }
 
+template <class Matrix>
+Eigen::VectorXd IdealEquations::by_joints(const Eigen::VectorXd& x, Matrix matrix) const {
+  Eigen::VectorXd out(x.size());
+  for (const JointRows& joint : joint_rows_) out.segment(joint.first, joint.n) = matrix(joint).topLeftCorner(joint.n, joint.n) * x.segment(joint.first, joint.n);
+  return out;
+}
+Eigen::VectorXd IdealEquations::scaled(const Eigen::VectorXd& of_rows) const {
+  return by_joints(of_rows, [](const JointRows& joint) { return joint.scale; });
+}
+Eigen::VectorXd IdealEquations::scaled_back(const Eigen::VectorXd& multipliers) const {
+  return by_joints(multipliers, [](const JointRows& joint) -> Eigen::Matrix3d { return joint.scale.transpose(); });
+}
+
 void IdealEquations::solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const {
-  const Eigen::VectorXd scaled = scale_.cwiseProduct(wanted);
   if (n_redundant_ == 0) {
-    multipliers = scale_.cwiseProduct(factors_.solve(scaled));
+    multipliers = scaled_back(factors_.solve(scaled(wanted)));
     return;
   }
-  const Eigen::Index kept = scale_.size() - n_redundant_;
+  const Eigen::Index kept = wanted.size() - n_redundant_;
   const auto V = modes_.eigenvectors().rightCols(kept);
   const Eigen::VectorXd values = modes_.eigenvalues().tail(kept).cwiseMax(damped_);
-  multipliers = scale_.cwiseProduct(V * (V.transpose() * scaled).cwiseQuotient(values));
+  multipliers = scaled_back(V * (V.transpose() * scaled(wanted)).cwiseQuotient(values));
 }
 
 Eigen::VectorXd IdealEquations::rates(const Vecs& x) const {
@@ -319,15 +365,15 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
   for (int i = 0; i < kMaxClosing; ++i) {
     read(t, q, still_);
     double largest = 0;
-    Eigen::VectorXd missing(scale_.size()), multipliers;
+    Eigen::VectorXd missing(matrix_.rows()), multipliers;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       missing[k] = -r_[rows_[k].joint].gap[rows_[k].component];
       largest = std::max(largest, std::abs(missing[k]));
     }
     if (!factorize()) return false;
     if (n_redundant_ > 0) {  // only what can be closed
-      const auto V = modes_.eigenvectors().rightCols(scale_.size() - n_redundant_);
-      largest = (V * (V.transpose() * scale_.cwiseProduct(missing))).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+      const auto V = modes_.eigenvectors().rightCols(missing.size() - n_redundant_);
+      largest = by_joints(V * (V.transpose() * scaled(missing)), [](const JointRows& joint) { return joint.inverse; }).cwiseAbs().maxCoeff();
     }
     if (largest <= kLastBits * size_) return true;
     if (!(largest < before)) return largest <= std::max(1e3 * kLastBits * size_, kLastBits * largest_number(q));  // roundoff, or the loops cannot be closed
@@ -348,7 +394,7 @@ bool IdealEquations::close_velocities(double t, const Vecs& q, Vecs& v) {
   for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
     read(t, q, v);
     if (pass == 0 && !factorize()) return false;
-    Eigen::VectorXd missing(scale_.size());
+    Eigen::VectorXd missing(matrix_.rows());
     for (std::size_t k = 0; k < rows_.size(); ++k) missing[k] = -r_[rows_[k].joint].rate[rows_[k].component];
     solve(missing, multipliers);
     push(multipliers, v);                                                                   // (1.5)
@@ -392,7 +438,7 @@ double IdealEquations::independence(double t, const Vecs& q) {
 
 Eigen::VectorXd IdealEquations::nearest_dependency() const {
   if (n_redundant_ > 0) return modes_.eigenvectors().col(n_redundant_);
-  Eigen::VectorXd x(scale_.size());
+  Eigen::VectorXd x(matrix_.rows());
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1 + 0.1 * std::sin(static_cast<double>(7 * i + 1));
   for (int i = 0; i < 4; ++i) x = factors_.solve(x).normalized().eval();
   return x;

@@ -84,11 +84,20 @@ class IdealEquations {
 
  private:
   void read(double t, const Vecs& q, const Vecs& v);
+  struct JointRows {
+    int first, n;
+    Eigen::Matrix3d scale, inverse;  // of n rows and columns
+  };
+  void scale_rows();
   bool factorize();
   bool has_penalties() const { return equations_ != Equations::kIdeal; }
   bool factorize_sparse();
   bool factorize_with_penalties();
   bool find_modes();
+  template <class Matrix>
+  Eigen::VectorXd by_joints(const Eigen::VectorXd& x, Matrix matrix) const;  // the product of a matrix of each joint with its part of x
+  Eigen::VectorXd scaled(const Eigen::VectorXd& of_rows) const;
+  Eigen::VectorXd scaled_back(const Eigen::VectorXd& multipliers) const;
   void solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const;
   Eigen::VectorXd rates(const Vecs& x) const;                        // G x
   void push(const Eigen::VectorXd& multipliers, Vecs& x) const;      // x += M^-1 G' multipliers
@@ -112,11 +121,12 @@ class IdealEquations {
     int entry, row, other, side, other_side, body;
   };
   std::vector<Product> products_;
-  Eigen::SparseMatrix<double> matrix_;  // lower half, scaled to a unit diagonal
+  Eigen::SparseMatrix<double> matrix_;  // lower half, of scaled rows
   std::vector<int> row_of_entry_, column_of_entry_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
-  std::vector<Eigen::RowVector3d> jacobian_;
-  Eigen::VectorXd scale_, first_scale_;  // roots of the masses that resist the rows: here, and at the first position
+  std::vector<Eigen::RowVector3d> jacobian_, scaled_jacobian_;
+  std::vector<JointRows> joint_rows_;
+  Eigen::VectorXd first_scale_;  // with penalties: roots of the masses that resist the rows at the first position
   std::array<double, 2> violation_{};
   std::vector<Planar::Motion> m_;
   std::vector<JointKinematics> r_;

@@ -82,11 +82,11 @@ bool IdealStepper::step(double t_end) {
   begin_ = end_;
   system_.motions(begin_.q, begin_.v, begin_m_);
   double wanted = max_step_ > 0 ? std::min(h_, max_step_) : h_, stop = t_end;
-  bool at_once = true, jump_ahead = false;
+  bool at_once = true, jump_ahead = false, around = true;
   const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
   const double crossing_h = std::max(std::max(kCrossing * tolerance_, kLeastCrossing) * smooth_h_, 1e3 * rounding);
   while (true) {
-    const double left = stop - begin_.t, h = std::min(step_around_singular_position(wanted), left);
+    const double left = stop - begin_.t, h = std::min(around ? step_around_singular_position(wanted) : wanted, left);
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
@@ -125,6 +125,10 @@ bool IdealStepper::step(double t_end) {
     }
     ++counters_.rejected;
     at_once = false;
+    if (!std::isfinite(e)) {  // a step over a singular position cannot be shortened
+      around = false;
+      clear_h_ = 0;
+    }
     wanted = h * std::min(factor, 0.5);
   }
 }
