@@ -28,8 +28,9 @@ class AssemblyError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Runs `model` according to its `simulate` settings. Throws AssemblyError. A numerical failure or an interruption is
-/// reported in the trajectory's outcome, along with everything computed until then.
+/// Runs `model` according to its `simulate` settings. Throws AssemblyError; and std::invalid_argument where a model made in a program has names that do not
+/// exist, keys that a law does not have, or numbers out of range. A numerical failure or an interruption is reported in the trajectory's outcome,
+/// along with everything computed until then. Models share nothing: several threads may each run their own.
 Trajectory simulate(const Model& model, const Observer& observer = {});
 
 }  // namespace pintle

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "run/check_settings.h"
 #include "run/run_passes.h"
 
 namespace pintle {
@@ -12,14 +13,6 @@ namespace {
 
 void demand(bool good, const std::string& complaint) {
   if (!good) throw std::invalid_argument(complaint);
-}
-
-void check(const SimulateSettings& settings) {
-  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  demand(positive(settings.duration), fmt::format("duration is {} s: set a time above 0", settings.duration));
-  demand(positive(settings.tolerance), fmt::format("tolerance is {}: set a number above 0, such as 1e-5", settings.tolerance));
-  demand(settings.output_step >= 0, fmt::format("output_step is {} s: set a time above 0, or 0 for 500 rows", settings.output_step));
-  demand(settings.max_step >= 0, fmt::format("max_step is {} s: set a time above 0, or 0 for none", settings.max_step));
 }
 
 template <class S>
@@ -38,7 +31,7 @@ void check(const BasicSystem<S>& system, const BasicState<S>& start) {
 
 template <class S>
 BasicSystemRun<S> run_system(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const Observer& observer) {
-  check(settings);
+  check_settings(settings);
   check(system, start);
   const Stopwatch clock;
   BasicSystemRun<S> out;

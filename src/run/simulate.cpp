@@ -1,10 +1,14 @@
 // A run of a planar model: assembles it and makes the passes.
 #include "pintle/simulate.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
 #include <unordered_set>
 #include <utility>
 
 #include "pintle/bearings.h"
+#include "run/check_settings.h"
 #include "run/limits/limit_notes.h"
 #include "run/recorder.h"
 #include "run/run_passes.h"
@@ -14,6 +18,13 @@ namespace pintle {
 namespace {
 
 constexpr std::size_t kManyBodies = 1000;  // with more bodies the assembly takes long enough to be reported
+
+// What reading a file would have refused.
+void check(const Model& model) {
+  if (model.bodies.empty()) throw std::invalid_argument("the model has no body");
+  if (model.space != "planar") throw std::invalid_argument(fmt::format("the model is \"{}\": only models of the plane are simulated", model.space));
+  check_settings(model.simulate);
+}
 
 }  // namespace
 
@@ -41,6 +52,9 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
   return out;
 }
 
-Trajectory simulate(const Model& model, const Observer& observer) { return simulate_reduced(model, {}, observer); }
+Trajectory simulate(const Model& model, const Observer& observer) {
+  check(model);
+  return simulate_reduced(model, {}, observer);
+}
 
 }  // namespace pintle

@@ -18,6 +18,7 @@
 #include "joints/catalog.h"
 #include "joints/edge_profile.h"
 #include "laws/catalog.h"
+#include "laws/fault_of_values.h"
 #include "laws/pressure.h"
 #include "laws/separating_force.h"
 #include "system/joint_tree.h"
@@ -31,8 +32,10 @@ using S = Planar;
 class Builder {
  public:
   explicit Builder(const Model& model) : model_(model) {
-    for (std::size_t i = 0; i < model.bodies.size(); ++i) body_index_[model.bodies[i].name] = static_cast<int>(i);
-    for (std::size_t j = 0; j < model.joints.size(); ++j) joint_index_[model.joints[j].name] = static_cast<int>(j);
+    for (std::size_t i = 0; i < model.bodies.size(); ++i)
+      if (!body_index_.emplace(model.bodies[i].name, static_cast<int>(i)).second) refuse(fmt::format("two bodies are called '{}'", model.bodies[i].name));
+    for (std::size_t j = 0; j < model.joints.size(); ++j)
+      if (!joint_index_.emplace(model.joints[j].name, static_cast<int>(j)).second) refuse(fmt::format("two joints are called '{}'", model.joints[j].name));
   }
 
   System build(const System* like) {
@@ -132,6 +135,7 @@ class Builder {
       const LawInfo* info = find_law(choice->word);
       if (!info || info->role != role) refuse(fmt::format("joint {}: there is no {} '{}'", joint.name, key_of(role), choice->word));
       if (!suits(*info, joint.type)) refuse(fmt::format("joint {}: {} joint has no law '{}'", joint.name, with_article(joint.type), choice->word));
+      if (const std::string fault = fault_of_values(*info, choice->values); !fault.empty()) refuse(fmt::format("joint {}: {} {}", joint.name, key_of(role), fault));
       setting.values = &choice->values;
       setting.keys = info->keys;
       if (info->fault)

@@ -157,6 +157,31 @@ TEST(BuildSystem, RefusesNamesThatDoNotExist) {
   expect_refused(model, "bogus");
 }
 
+TEST(BuildSystem, RefusesValuesThatALawDoesNotTake) {
+  const auto with = [](const char* law, std::map<std::string, std::vector<double>> values) {
+    Model model = sample::four_bar(1e8, 3000);
+    model.joints[1].law = {law, std::move(values)};
+    return model;
+  };
+  expect_refused(with("linear", {{"stifness", {1e4}}}), "did you mean 'stiffness'?");
+  expect_refused(with("linear", {{"stiffness", {-1e8}}}), "stiffness = -1e+08");
+  expect_refused(with("linear", {{"stiffness", {}}}), "stiffness is one number");
+  expect_refused(with("linear", {{"damping", {std::nan("")}}}), "damping is not a number");
+  expect_refused(with("clearance", {}), "needs the key 'clearance'");
+  Model model = sample::four_bar(1e8, 3000);
+  model.joints[1].friction = {"coulomb", {{"coefficient", {0.9}}, {"pin_radius", {0.05}}}};
+  expect_refused(model, "friction_coefficient");
+}
+
+TEST(BuildSystem, RefusesTwoOfOneName) {
+  Model model = sample::four_bar(1e8, 3000);
+  model.bodies[1].name = model.bodies[0].name;
+  expect_refused(model, "two bodies");
+  model = sample::four_bar(1e8, 3000);
+  model.joints[1].name = model.joints[0].name;
+  expect_refused(model, "two joints");
+}
+
 TEST(BuildSystem, RefusesMassesThatAreNotPositive) {
   for (const double bad : {0.0, -1.0, std::nan("")}) {
     Model model = sample::pendulum(1e6, 0);
