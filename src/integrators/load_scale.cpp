@@ -49,8 +49,10 @@ std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std
 }
 
 template <class S>
-double rounding_of_gaps(const PositionsOf<S>& q) {
-  return kLastBits * largest_coordinate(q) * largest_angle<S>(q);
+typename S::Vec rounding_of_gaps(const PositionsOf<S>& q) {
+  typename S::Vec rounding = S::Vec::Constant(kLastBits * largest_angle<S>(q));
+  rounding.template head<S::kDim>() *= largest_coordinate(q);
+  return rounding;
 }
 
 template <class S>
@@ -70,8 +72,8 @@ void find_rounding_of_joint_forces(const BasicSystem<S>& system, const Positions
 
 template std::vector<double> loads_above_rounding(const BasicSystem<Planar>& system, const std::vector<int>& joints, const BasicState<Planar>& state, double tolerance);
 PINTLE_IN_SPACE(template std::vector<double> loads_above_rounding(const BasicSystem<Spatial>& system, const std::vector<int>& joints, const BasicState<Spatial>& state, double tolerance);)
-template double rounding_of_gaps<Planar>(const PositionsOf<Planar>& q);
-PINTLE_IN_SPACE(template double rounding_of_gaps<Spatial>(const PositionsOf<Spatial>& q);)
+template Planar::Vec rounding_of_gaps<Planar>(const PositionsOf<Planar>& q);
+PINTLE_IN_SPACE(template Spatial::Vec rounding_of_gaps<Spatial>(const PositionsOf<Spatial>& q);)
 template void find_rounding_of_joint_forces(const BasicSystem<Planar>& system, const PositionsOf<Planar>& q, VecsOf<Planar>& rounding);
 PINTLE_IN_SPACE(template void find_rounding_of_joint_forces(const BasicSystem<Spatial>& system, const PositionsOf<Spatial>& q, VecsOf<Spatial>& rounding);)
 template void grow_load_scale(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& Q, const BasicState<Planar>& state, BasicLoadScale<Planar>& scale, VecsOf<Planar>& load);

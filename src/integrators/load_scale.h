@@ -28,10 +28,10 @@ inline double load_above_rounding(double stiffness, double size, double toleranc
   return kRoundings * std::numeric_limits<double>::epsilon() * size * stiffness / tolerance;
 }
 
-/// Rounding of gaps that are computed from the positions of bodies [m]: that of coordinates, and of angles, which count turns, at an arm as long as the
-/// largest coordinate. A carried gap that differs by less is the more accurate of the two.
+/// Rounding of gaps that are computed from the positions of bodies [m, rad]: that of angles, which count turns; and that of coordinates, or of angles at an arm as
+/// long as the largest of them. A carried gap that differs by less is the more accurate of the two.
 template <class S>
-double rounding_of_gaps(const PositionsOf<S>& q);
+typename S::Vec rounding_of_gaps(const PositionsOf<S>& q);
 
 /// The larger of the scales of both bodies of a joint, component by component.
 template <class S>

@@ -86,8 +86,11 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   }
 
   void project(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) {
-    const double rounding = rounding_of_gaps<S>(last.q), fastest = largest_coordinate(last.v);
-    const double rounding_of_rate = std::max(kLastBits * fastest, std::min(rounding / std::abs(h), kMostOfRates * fastest));
+    rounding_ = rounding_of_gaps<S>(last.q);
+    typename S::Vec fastest = S::Vec::Constant(largest_coordinate(last.v));
+    for (int k = S::kDim; k < S::kDof; ++k)
+      for (const typename S::Vec& v : last.v) fastest[k] = std::max(fastest[k], std::abs(v[k]));
+    rounding_of_rate_ = (kLastBits * fastest).cwiseMax((rounding_ / std::abs(h)).cwiseMin(kMostOfRates * fastest));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       {
         typename S::Vec dq;
@@ -100,7 +103,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     end.law_state = last.law_state;
     end.law_rate = last.law_rate;
     find_motions(end, m);
-    if (!(assemble_rates_and_measure_gaps(last, end, m) < rounding)) {  // the first pass has left more
+    if (!(assemble_rates_and_measure_gaps(last, end, m) < 1)) {  // the first pass has left more
       assemble_position_error(last, end, m);
       answer(rhs_);
       for (std::size_t b = 0; b < n_bodies(); ++b) S::move(end.q[b], Eigen::Map<const typename S::Vec>(rhs_[b].a.data()));
@@ -108,10 +111,10 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
       assemble_rates_and_measure_gaps(last, end, m);
     }
     move_velocities(end, m);
-    if (!(assemble_force_balance(last, end, m, rounding, rounding_of_rate) < rounding_of_rate)) {
+    if (!(assemble_force_balance(last, end, m) < 1)) {
       assemble_rates_and_measure_gaps(last, end, m);
       move_velocities(end, m);
-      assemble_force_balance(last, end, m, rounding, rounding_of_rate);
+      assemble_force_balance(last, end, m);
     }
     balance(last, end, scale);
   }
@@ -260,7 +263,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     }
   }
 
-  // The right-hand side for the velocities, from the gaps' rates. Returns what is left of the gaps.
+  // The right-hand side for the velocities, from the gaps' rates. Returns what is left of the gaps, over their rounding.
   double assemble_rates_and_measure_gaps(const BasicStage<S>& last, const BasicState<S>& end, const std::vector<typename S::Motion>& m) {
     clear(rhs_);
     L left = L::all(0);
@@ -270,7 +273,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
       const Kinematics r = read(joints, end.t, m, map, last);
       L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) {
-        left = larger_size(left, joints.forbidden[k] * (joints.load(last.gap, k) - r.gap[k]));
+        left = larger_size(left, joints.forbidden[k] * (1 / rounding_[k]) * (joints.load(last.gap, k) - r.gap[k]));
         off[k] = joints.load(last.gap_rate, k) - r.rate[k];
       }
       add_to_rhs(joints, off);
@@ -303,8 +306,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   }
 
   // Puts the joints' forces at their gaps into force_rhs_, by the matrix's map so that the balance removes all of their error; and the
-  // right-hand side for their accelerations into rhs_. Returns what is left of the rates.
-  double assemble_force_balance(const BasicStage<S>& last, BasicState<S>& end, const std::vector<typename S::Motion>& m, double rounding, double rounding_of_rate) {
+  // right-hand side for their accelerations into rhs_. Returns what is left of the rates, over their rounding.
+  double assemble_force_balance(const BasicStage<S>& last, BasicState<S>& end, const std::vector<typename S::Motion>& m) {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) accel_[b][k] = last.a[b][k];
     clear(rhs_);
@@ -318,10 +321,10 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
       joints.gather(map, accel_, accel);
       for (int k = 0; k < S::kDof; ++k) {
         const L carried = joints.load(last.gap_rate, k);
-        left = larger_size(left, joints.forbidden[k] * (carried - r.rate[k]));
+        left = larger_size(left, joints.forbidden[k] * (1 / rounding_of_rate_[k]) * (carried - r.rate[k]));
         accel[k] = joints.load(last.gap_accel, k) - r.bias[k] - accel[k];
-        gap[k] = carried_or(joints.load(last.gap, k), r.gap[k], rounding);
-        rate[k] = carried_or(carried, r.rate[k], rounding_of_rate);
+        gap[k] = carried_or(joints.load(last.gap, k), r.gap[k], rounding_[k]);
+        rate[k] = carried_or(carried, r.rate[k], rounding_of_rate_[k]);
       }
       joints.store(gap, end.gap);
       joints.store(rate, end.gap_rate);
@@ -431,6 +434,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   std::vector<RowOf4<S>> rest_of_four_;
   std::vector<BodyRow<S>> rest_;
   std::vector<BodyRow<S>> accel_, rhs_, force_rhs_;
+  typename S::Vec rounding_ = S::Vec::Zero(), rounding_of_rate_ = rounding_;  // of gaps and their rates, from the positions and velocities of bodies
 };
 
 // The same code for registers of every width.

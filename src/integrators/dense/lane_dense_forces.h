@@ -322,7 +322,7 @@ class LaneForces : public BasicDenseForces<S> {
     find_misfits();
     remove_closable_part(&Joint::off);
     remove_closable_part(&Joint::rate_off);
-    const double rounding = rounding_of_gaps<S>(end.q);
+    const typename S::Vec rounding = rounding_of_gaps<S>(end.q);
     for (std::size_t j = 0; j < joints_.size(); ++j)
       if (joints_[j].pose) add_force_of_geometry(j, rounding);
     bodies_ = on_curves_;
@@ -369,11 +369,11 @@ class LaneForces : public BasicDenseForces<S> {
   }
 
   // Takes away from the force what its gap has too much; nothing at an instant at which this is not a number.
-  void add_force_of_geometry(std::size_t j, double rounding) {
+  void add_force_of_geometry(std::size_t j, const typename S::Vec& rounding) {
     const BasicJointData<S>& data = system_.joints[j];
     Joint& joint = joints_[j];
     for (int k = 0; k < S::kDof; ++k) {
-      joint.off[k] = where_larger(sizes(joint.off[k]), L::all(rounding), joint.off[k], L::all(0));
+      joint.off[k] = where_larger(sizes(joint.off[k]), L::all(rounding[k]), joint.off[k], L::all(0));
       joint.rate_off[k] = where_larger(sizes(joint.rate_off[k]), L::all(0), joint.rate_off[k], L::all(0));
     }
     if (joint.linear) {

@@ -130,7 +130,7 @@ void IdealEquations::scale_rows() {
     for (int i = 0; i < joint.n; ++i)
       for (int k = 0; k < joint.n; ++k) {
         alone(i, k) = 0;
-        for (const auto [body, side] : {std::pair(at.a, 0), std::pair(at.b, 1)})
+        for (const auto& [body, side] : {std::pair(at.a, 0), std::pair(at.b, 1)})
           if (body != kGround) alone(i, k) += jacobian(joint.first + i, side).cwiseQuotient(system_.bodies[body].mass.transpose()).dot(jacobian(joint.first + k, side));
       }
     const Eigen::Vector3d roots = alone.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt();

@@ -182,7 +182,7 @@ void TreeRadau::taylor_step(double h) {
 
 // Projects coordinates and rates, each in one pass, and in a second one if the first leaves more than roundoff. Eq. (6.2).
 void TreeRadau::move_onto_gaps() {
-  const double rounding = rounding_of_gaps<S>(stages_.instant(n_ - 1).pose().q);
+  const double rounding = rounding_of_gaps<S>(stages_.instant(n_ - 1).pose().q)[0];
   const double rounding_of_rate = kLastBits * largest_coordinate(stages_.instant(n_ - 1).pose().v);
   end_at_.place_only(end_.t, end_.y, end_.u);
   VectorXd now;
@@ -205,11 +205,11 @@ void TreeRadau::move_onto_gaps() {
 
 // Keeps the carried gap, but takes that of the geometry if no motion can reach it (redundant joints). theory/time Eq. (4.3).
 void TreeRadau::take_gaps() {
-  const double rounding = rounding_of_gaps<S>(end_at_.pose().q);
+  const S::Vec rounding = rounding_of_gaps<S>(end_at_.pose().q);
   VectorXd now;
   end_at_.gaps(now, &end_);
   for (Index i = 0; i < now.size(); ++i)
-    if (std::abs(now[i] - end_.gap[i]) > rounding) end_.gap[i] = now[i];
+    if (std::abs(now[i] - end_.gap[i]) > rounding[i % S::kDof]) end_.gap[i] = now[i];
   end_at_.rates(end_.rate);
   end_at_.forces(end_, end_.force, end_.law_rate);
 }
