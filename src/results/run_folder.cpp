@@ -97,7 +97,7 @@ std::string read_model_text(const fs::path& folder, const RunStamp& stamp) {
   const fs::path copy = folder / model_file_of(stamp), original = stamp.model_path;
   const bool copied = fs::exists(copy);
   if (!copied && !fs::exists(original))
-    throw FileError(fmt::format("{}: the run has no copy of its model, and {} does not exist either.\n    Run the model again.", copy.string(),
+    throw FileError(fmt::format("{}: the run has no copy of its model, and {} does not exist either.\n    Run the model again; for a model made in a program, call report_html with that model.", copy.string(),
                                 stamp.model_path.empty() ? "the model file" : stamp.model_path));
   const std::string text = read_file(copied ? copy : original);
   if ("sha256:" + sha256(text) != stamp.input_hash)
