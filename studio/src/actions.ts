@@ -1,4 +1,5 @@
 // User actions on the whole page: edit, undo, select, open. Every change of the text goes through `edit`.
+import type { NamedFiles } from "./kernel/named-files";
 import { type Complaint, type Fault } from "./kernel/protocol";
 import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
@@ -132,12 +133,12 @@ export function openingKey(before: Origin, after: Origin): string {
 export const originBefore = (key: string): Origin | undefined => opened.get(key)?.[0];
 
 function originNow(): Origin {
-  const { document, fileName, home, savedText } = studio.get();
-  return { document, fileName, home, savedText };
+  const { document, fileName, home, savedText, files } = studio.get();
+  return { document, fileName, home, savedText, files };
 }
 
 /** Records that a text has been saved; another one may be open by now. */
-export function noteSaved(document: number, change: Omit<Origin, "document">): void {
+export function noteSaved(document: number, change: Omit<Origin, "document" | "files">): void {
   for (const origins of opened.values()) for (const origin of origins) if (origin.document === document) Object.assign(origin, change);
   if (studio.get().document === document) studio.set(change);
 }
@@ -154,11 +155,11 @@ export function chooseTool(tool: ToolName): void {
 const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: null, tool: "select" };
 
 /** Opens another model instead of this one; undo brings this one back. Without a home it is a new file: saving asks for its name. */
-export function openText(text: string, fileName: string, { home = null, savedText = text }: { home?: Home | null; savedText?: string } = {}): void {
+export function openText(text: string, fileName: string, { home = null, savedText = text, files = {} }: { home?: Home | null; savedText?: string; files?: NamedFiles } = {}): void {
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
   const before = studio.get();
-  const origin: Origin = { document: newDocument(), fileName, home, savedText };
+  const origin: Origin = { document: newDocument(), fileName, home, savedText, files };
   studio.set({
     ...NOTHING_OPEN,
     ...origin,

@@ -1,5 +1,6 @@
 // The whole state of the page, in one place. The text is the model; everything else about the mechanism follows from it.
 import type { CheckReport, Complaint, Fault, RunAnswer, RunProgress } from "./kernel/protocol";
+import type { NamedFiles } from "./kernel/named-files";
 import { type History, newHistory } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
 import { EMPTY_MODEL, type Thing } from "./model/operations";
@@ -48,6 +49,8 @@ export interface Origin {
   fileName: string;
   home: Home | null;
   savedText: string;
+  /** Files that the text names: columns of tables. */
+  files: NamedFiles;
 }
 
 export interface StudioState extends Origin {
@@ -120,6 +123,7 @@ export const studio = createStore<StudioState>({
   plotted: null,
   toasts: [],
   savedText: EMPTY_MODEL,
+  files: {},
   folder: null,
 });
 

@@ -1,6 +1,5 @@
 // The folder of `pintle studio`, if that program serves the page: models are opened from it and saved into it.
 import { asFault, noteSaved, openText, say, showFaults } from "../actions";
-import { keepNamedFile } from "../kernel/named-files";
 import { type NativeServer, sessionToken } from "../kernel/native";
 import { kernel } from "../play/kernel-session";
 import { studio } from "../state";
@@ -70,9 +69,8 @@ export async function openFromFolder(path: string): Promise<void> {
   if (!server) return;
   try {
     const { text, hash, files } = await server.open(path);
-    for (const [name, table] of Object.entries(files)) keepNamedFile(name, table);
     const model = await asModel(path, text);
-    openText(model.text, model.fileName, model.converted ? { savedText: "" } : { home: { kind: "folder", folder: server.folder, path, hash } });
+    openText(model.text, model.fileName, { files, ...(model.converted ? { savedText: "" } : { home: { kind: "folder", folder: server.folder, path, hash } }) });
     showFaults();
     studio.set({ dialog: null });
   } catch (error) {

@@ -9,12 +9,14 @@ import { openFromFolder, startFolder } from "./folder";
 
 /** The folder of a server, in which a text serves as its own hash. */
 const files = new Map<string, string>();
+/** What its tables contain, by the path of the model that names them. */
+const tables = new Map<string, Record<string, string>>();
 const server = {
   version: "0",
   folder: "models",
   model: null as string | null,
   list: async () => [],
-  open: async (path: string) => ({ path, text: files.get(path)!, hash: files.get(path)!, files: {} }),
+  open: async (path: string) => ({ path, text: files.get(path)!, hash: files.get(path)!, files: tables.get(path) ?? {} }),
   save: async (path: string, text: string, expected: string | null) => {
     await new Promise((resolve) => setTimeout(resolve, 5));
     const now = files.get(path) ?? null;
@@ -32,6 +34,7 @@ const said = () => now().toasts.at(-1);
 describe("saving in the folder of pintle studio", () => {
   beforeEach(async () => {
     files.clear();
+    tables.clear();
     local.entries.clear();
     await startFolder();
     studio.set({ dialog: null, toasts: [] });
@@ -70,6 +73,18 @@ describe("saving in the folder of pintle studio", () => {
     redo();
     expect(now().home).toMatchObject({ path: "A/x.toml", hash: model("a, changed") });
     expect(now().savedText).toBe(model("a, changed"));
+  });
+
+  it("gives each text its own tables again on undo and redo, though they have the same name", async () => {
+    files.set("A/x.toml", model("a")).set("B/x.toml", model("b"));
+    tables.set("A/x.toml", { "mine.csv": "a" }).set("B/x.toml", { "mine.csv": "b" });
+    await openFromFolder("A/x.toml");
+    await openFromFolder("B/x.toml");
+    expect(now().files).toEqual({ "mine.csv": "b" });
+    undo();
+    expect(now().files).toEqual({ "mine.csv": "a" });
+    redo();
+    expect(now().files).toEqual({ "mine.csv": "b" });
   });
 
   it("saves twice in a row without a conflict with itself", async () => {
@@ -117,6 +132,7 @@ describe("the model that pintle studio was started with", () => {
   beforeEach(() => {
     session.entries.clear();
     files.clear();
+    tables.clear();
     files.set("a.toml", model("disk"));
     server.model = "a.toml";
   });

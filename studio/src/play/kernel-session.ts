@@ -9,7 +9,7 @@ import { quantity } from "../model/units";
 import { NO_RUN, studio } from "../state";
 import { runWhereFastest } from "./long-run";
 
-export const kernel: Kernel = startKernel();
+export const kernel: Kernel = startKernel({ files: () => studio.get().files });
 
 let generation = 0;
 let drag: DragSession | null = null;
