@@ -24,19 +24,24 @@ export async function startFolder(mayOpen = true): Promise<void> {
   const start = `${sessionToken()} ${model}`;
   if (!model || !mayOpen || kept(BEGUN) === start) {
     keep(BEGUN, start);
-    if (mayOpen && path && !unsaved) await refresh(path);
+    if (mayOpen && path) await refresh(path);
     return;
   }
   keep(BEGUN, start);
   if (path !== model || !unsaved) return openFromFolder(model);
   const open = () => (studio.get().document === document ? void openFromFolder(model) : undefined);
   say(`This is your unsaved work on ${model}.`, { label: "Open the file", run: open });
+  await refresh(model);
 }
 
-// Another program may have written the file since.
+// Another program may have written the file or its tables since. Unsaved work keeps its text.
 async function refresh(path: string): Promise<void> {
-  const now = await server?.open(path).catch(() => null);
-  if (now && now.text !== studio.get().history.text) await openFromFolder(path);
+  const { document } = studio.get();
+  const read = await server?.open(path).catch(() => null);
+  const { history, savedText, files, document: openNow } = studio.get();
+  if (!read || openNow !== document) return;
+  if (read.text !== history.text && history.text === savedText) return openFromFolder(path);
+  if (Object.entries(read.files).some(([name, table]) => files[name] !== table)) studio.set({ files: { ...files, ...read.files } });
 }
 
 // For the lifetime of the tab.

@@ -122,7 +122,7 @@ describe("saving in the folder of pintle studio", () => {
 });
 
 describe("the model that pintle studio was started with", () => {
-  const mine = { document: 900, fileName: "a.toml", home: { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") }, savedText: model("disk") };
+  const mine = { document: 900, files: {} as Record<string, string>, fileName: "a.toml", home: { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") }, savedText: model("disk") };
   const begin = async (token: string, text: string, mayOpen = true) => {
     session.setItem("pintle.token", token);
     studio.set({ ...mine, history: newHistory(text), toasts: [] });
@@ -153,9 +153,23 @@ describe("the model that pintle studio was started with", () => {
     expect(await begin("2", model("mine"))).toBe(model("mine"));
     expect(said()?.action?.label).toBe("Open the file");
     expect(await begin("3", model("disk"))).toBe(model("disk"));
+    tables.set("a.toml", { "mine.csv": "1" });
+    expect(await begin("3", model("disk"))).toBe(model("disk"));
+    expect(now().files).toEqual({ "mine.csv": "1" });
     files.set("a.toml", model("theirs"));
     expect(await begin("3", model("disk"))).toBe(model("theirs"));
   });
+});
+
+it("reads the tables of unsaved work again after a reload, and keeps those that only its text names", async () => {
+  server.model = null;
+  files.set("a.toml", model("disk"));
+  tables.set("a.toml", { "mine.csv": "new" });
+  const home = { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") };
+  studio.set({ home, savedText: model("disk"), history: newHistory(model("mine")), files: { "mine.csv": "old", "other.csv": "kept" } });
+  await startFolder();
+  expect(now().history.text).toBe(model("mine"));
+  expect(now().files).toEqual({ "mine.csv": "new", "other.csv": "kept" });
 });
 
 it("says that a dropped folder cannot be read", async () => {
