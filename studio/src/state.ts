@@ -24,6 +24,11 @@ export interface RunState {
   serial: number;
 }
 
+/** The answer belongs to an older text than the present one. A run that stopped early has one of its own. */
+export function isOutdated({ status, answer }: RunState): boolean {
+  return answer !== null && status !== "done" && !(status === "failed" && answer.outcome === "failed");
+}
+
 export interface Toast {
   id: number;
   text: string;
