@@ -129,6 +129,12 @@ export function openingKey(before: Origin, after: Origin): string {
   return key;
 }
 
+/** The last step opened the text: it has not been edited since. */
+export function isJustOpened({ past }: History): boolean {
+  const last = past[past.length - 1];
+  return last === undefined || opened.has(last.key);
+}
+
 /** The origin of the text before a step, if the step opened another text. */
 export const originBefore = (key: string): Origin | undefined => opened.get(key)?.[0];
 
