@@ -226,3 +226,9 @@ export function asFault(error: unknown): Fault {
   if (error && typeof error === "object" && "fault" in error) return (error as { fault: Fault }).fault;
   return { message: error instanceof Error ? error.message : String(error), hint: "" };
 }
+
+/** Says what went wrong, and what to try. */
+export function sayFault(error: unknown): void {
+  const { message, hint } = asFault(error);
+  say(hint ? `${message} ${hint}` : message);
+}

@@ -1,5 +1,5 @@
 // The folder of `pintle studio`, if that program serves the page: models are opened from it and saved into it.
-import { asFault, noteSaved, openText, say, showFaults } from "../actions";
+import { noteSaved, openText, say, sayFault, showFaults } from "../actions";
 import { type NativeServer, sessionToken } from "../kernel/native";
 import { kernel } from "../play/kernel-session";
 import { studio } from "../state";
@@ -66,7 +66,7 @@ export async function showFolder(): Promise<void> {
   try {
     studio.set({ folder: { name: server.folder, models: await server.list() }, dialog: "folder" });
   } catch (error) {
-    say(asFault(error).message);
+    sayFault(error);
   }
 }
 
@@ -79,7 +79,7 @@ export async function openFromFolder(path: string): Promise<void> {
     showFaults();
     studio.set({ dialog: null });
   } catch (error) {
-    say(asFault(error).message);
+    sayFault(error);
   }
 }
 
@@ -111,6 +111,6 @@ async function write(path: string, expected: string | null): Promise<void> {
     const again = () => (studio.get().document === document ? void inTurn(() => write(path, hash)) : say("Another model is open now: nothing was written."));
     say(`${path} ${why}.`, { label: hash === null ? "Write it again" : "Overwrite it", run: again });
   } catch (error) {
-    say(asFault(error).message);
+    sayFault(error);
   }
 }

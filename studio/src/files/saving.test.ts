@@ -1,6 +1,7 @@
 import { local, session } from "../../tests/page";
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import { edit, openText, redo, undo } from "../actions";
+import { KernelFault } from "../kernel/fault";
 import { newHistory } from "../model/history";
 import { EMPTY_MODEL } from "../model/operations";
 import { studio } from "../state";
@@ -110,6 +111,16 @@ describe("saving in the folder of pintle studio", () => {
     run();
     await new Promise((resolve) => setTimeout(resolve, 20));
     expect(files.get("a.toml")).toBe(model("theirs"));
+  });
+
+  it("says what is wrong with a folder or a name, and what to try", async () => {
+    vi.spyOn(server, "save").mockRejectedValueOnce(new KernelFault({ message: "There is no such folder.", hint: "Make the folder first." }));
+    openText(model("one"), "untitled.toml");
+    await saveUnder("nowhere/one");
+    expect(said()?.text).toBe("There is no such folder. Make the folder first.");
+    vi.spyOn(server, "open").mockRejectedValueOnce(new KernelFault({ message: "There is no such model file.", hint: "" }));
+    await openFromFolder("gone.toml");
+    expect(said()?.text).toBe("There is no such model file.");
   });
 
   it("opens JSON as a new TOML file", async () => {
