@@ -4,9 +4,9 @@ import { edit } from "../../actions";
 import { valueProblem } from "../../model/dimensions";
 import { Draft, type Literal } from "../../model/edit";
 import { type Plain, nodeAt, plain } from "../../model/toml";
-import { CHOICES, prettyUnit, shortNumber, unitFactor } from "../../model/units";
+import { prettyUnit, shortNumber } from "../../model/units";
 import { studio, useStudio } from "../../state";
-import { SIMPLE, entered, numberIn, partsOf } from "./entry";
+import { SIMPLE, converted, entered, numberIn, partsOf, unitsOf } from "./entry";
 
 /** The literal at a path as written in the text, or undefined. Compared by a key, so that React sees when it changes. */
 export function useLiteral(path: readonly string[]): Plain | undefined {
@@ -47,16 +47,13 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
   const parts = partsOf(literal, unit);
   const [typed, setTyped] = useState(parts.number);
   const [wrong, setWrong] = useState("");
+  const [chosen, setChosen] = useState("");
   const shown = parts.number;
   useEffect(() => {
     setTyped(shown);
     setWrong("");
   }, [shown, parts.unit]);
-  const usual = partsOf(fallback, unit);
-  const own = parts.unit || (literal === undefined && !usual.expression ? usual.unit : "");
-  const family = CHOICES[unit] ?? Object.values(CHOICES).find((list) => own !== "" && list.includes(own)) ?? (unit ? [unit] : []);
-  const choices = [...new Set([...(own ? [own] : []), ...family])];
-  const now = own || (unit ? (choices[0] ?? "") : "");
+  const { now, choices, usual } = unitsOf(literal, unit, fallback, chosen);
 
   const commit = (text: string) => {
     const value = text.trim();
@@ -68,10 +65,9 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
     else onChange(found.literal);
   };
   const convert = (to: string) => {
-    const from = unitFactor(now);
-    const factor = unitFactor(to);
-    if (literal === undefined || parts.expression || from === null || factor === null) return;
-    onChange(`${Number(((Number(parts.number) * from) / factor).toPrecision(10))} ${to}`);
+    if (literal === undefined) return setChosen(to);
+    const number = parts.expression ? null : converted(parts.number, now, to);
+    if (number !== null) onChange(`${number} ${to}`);
   };
   const value = parts.expression && !variables ? numberIn(shown) : null;
   return (
@@ -84,7 +80,7 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
         <input
           id={id}
           value={typed}
-          placeholder={fallback !== undefined ? (usual.expression ? fallback : usual.number) : required ? "required" : "–"}
+          placeholder={fallback !== undefined ? usual || fallback : required ? "required" : "–"}
           spellCheck={false}
           aria-invalid={wrong !== ""}
           aria-describedby={wrong ? `${id}-wrong` : undefined}
