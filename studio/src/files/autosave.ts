@@ -1,7 +1,7 @@
 // Nothing is lost: the text, the previous texts (to which undo leads back, in fewer or coarser steps) and the page's settings are
 // stored in the browser after every change.
 import { newDocument, openText, openingKey, originBefore, say } from "../actions";
-import { type History, change, newHistory } from "../model/history";
+import { type History, change, newHistory, step } from "../model/history";
 import { readModel } from "../model/model";
 import { EMPTY_MODEL } from "../model/operations";
 import { type Home, type Origin, studio } from "../state";
@@ -43,7 +43,7 @@ function historyOf(draft: Draft): { history: History; origin: Origin } {
   let history = newHistory(before[0] ?? text);
   [...before.slice(1), text].forEach((next, i) => {
     const at = opened.findIndex((one) => one.behind === before.length - i);
-    history = at < 0 ? change(history, next, "Edit") : change(history, next, `Open ${origins[at + 1]!.fileName}`, openingKey(origins[at]!, origins[at + 1]!));
+    history = at < 0 ? change(history, next, "Edit") : step(history, next, `Open ${origins[at + 1]!.fileName}`, openingKey(origins[at]!, origins[at + 1]!));
   });
   return { history, origin };
 }

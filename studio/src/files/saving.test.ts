@@ -88,6 +88,19 @@ describe("saving in the folder of pintle studio", () => {
     expect(now().files).toEqual({ "mine.csv": "b" });
   });
 
+  it("leads back by undo to another file with the same text, but has no step for the same file again", async () => {
+    files.set("A/x.toml", model("same")).set("B/x.toml", model("same"));
+    tables.set("A/x.toml", { "mine.csv": "a" }).set("B/x.toml", { "mine.csv": "b" });
+    await openFromFolder("A/x.toml");
+    const steps = now().history.past.length;
+    await openFromFolder("A/x.toml");
+    expect(now().history.past.length).toBe(steps);
+    await openFromFolder("B/x.toml");
+    expect([now().fileName, now().files]).toEqual(["B/x.toml", { "mine.csv": "b" }]);
+    undo();
+    expect([now().fileName, now().files]).toEqual(["A/x.toml", { "mine.csv": "a" }]);
+  });
+
   it("saves twice in a row without a conflict with itself", async () => {
     files.set("a.toml", model("a"));
     await openFromFolder("a.toml");
