@@ -35,6 +35,7 @@ export default defineConfig({
   base: "./", // a static folder that works at any address
   plugins: [react(), compressed()],
   worker: { format: "es" },
+  server: { fs: { allow: [".", "../mechanisms"] } },
   build: {
     target: "es2022",
     outDir: "../build/studio",

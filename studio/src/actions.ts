@@ -1,6 +1,7 @@
 // User actions on the whole page: edit, undo, select, open. Every change of the text goes through `edit`.
+import type { NamedFiles } from "./kernel/named-files";
 import { type Complaint, type Fault } from "./kernel/protocol";
-import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
+import { type History, change, redo as redoStep, step, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
 import { EMPTY_MODEL, type Made, type Thing, addMesh, meshFault } from "./model/operations";
 import { overwritten } from "./model/placing";
@@ -128,16 +129,22 @@ export function openingKey(before: Origin, after: Origin): string {
   return key;
 }
 
+/** The last step opened the text: it has not been edited since. */
+export function isJustOpened({ past }: History): boolean {
+  const last = past[past.length - 1];
+  return last === undefined || opened.has(last.key);
+}
+
 /** The origin of the text before a step, if the step opened another text. */
 export const originBefore = (key: string): Origin | undefined => opened.get(key)?.[0];
 
 function originNow(): Origin {
-  const { document, fileName, home, savedText } = studio.get();
-  return { document, fileName, home, savedText };
+  const { document, fileName, home, savedText, files } = studio.get();
+  return { document, fileName, home, savedText, files };
 }
 
 /** Records that a text has been saved; another one may be open by now. */
-export function noteSaved(document: number, change: Omit<Origin, "document">): void {
+export function noteSaved(document: number, change: Omit<Origin, "document" | "files">): void {
   for (const origins of opened.values()) for (const origin of origins) if (origin.document === document) Object.assign(origin, change);
   if (studio.get().document === document) studio.set(change);
 }
@@ -153,16 +160,22 @@ export function chooseTool(tool: ToolName): void {
 /** State that belongs to a single model. */
 const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: null, tool: "select" };
 
+function isSameFile(a: Origin, b: Origin): boolean {
+  const identity = ({ fileName, home, files }: Origin) => JSON.stringify([fileName, home?.kind === "folder" ? [home.folder, home.path] : home?.kind, files]);
+  return identity(a) === identity(b);
+}
+
 /** Opens another model instead of this one; undo brings this one back. Without a home it is a new file: saving asks for its name. */
-export function openText(text: string, fileName: string, { home = null, savedText = text }: { home?: Home | null; savedText?: string } = {}): void {
+export function openText(text: string, fileName: string, { home = null, savedText = text, files = {} }: { home?: Home | null; savedText?: string; files?: NamedFiles } = {}): void {
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
   const before = studio.get();
-  const origin: Origin = { document: newDocument(), fileName, home, savedText };
+  const origin: Origin = { document: newDocument(), fileName, home, savedText, files };
+  const history = text === before.history.text && isSameFile(before, origin) ? before.history : step(before.history, text, `Open ${fileName}`, openingKey(originNow(), origin));
   studio.set({
     ...NOTHING_OPEN,
     ...origin,
-    history: change(before.history, text, `Open ${fileName}`, openingKey(originNow(), origin)),
+    history,
     model: faulty && read.bodies.length === 0 ? readModel(EMPTY_MODEL) : read,
     stale: faulty,
     complaints: localComplaints(read.document),
@@ -218,4 +231,10 @@ export function dismiss(id: number): void {
 export function asFault(error: unknown): Fault {
   if (error && typeof error === "object" && "fault" in error) return (error as { fault: Fault }).fault;
   return { message: error instanceof Error ? error.message : String(error), hint: "" };
+}
+
+/** Says what went wrong, and what to try. */
+export function sayFault(error: unknown): void {
+  const { message, hint } = asFault(error);
+  say(hint ? `${message} ${hint}` : message);
 }

@@ -1,5 +1,6 @@
 // The whole state of the page, in one place. The text is the model; everything else about the mechanism follows from it.
 import type { CheckReport, Complaint, Fault, RunAnswer, RunProgress } from "./kernel/protocol";
+import type { NamedFiles } from "./kernel/named-files";
 import { type History, newHistory } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
 import { EMPTY_MODEL, type Thing } from "./model/operations";
@@ -21,6 +22,11 @@ export interface RunState {
   fault: Fault | null;
   /** Counts answers, so that code that draws one can detect a new one. */
   serial: number;
+}
+
+/** The answer belongs to an older text than the present one. A run that stopped early has one of its own. */
+export function isOutdated({ status, answer }: RunState): boolean {
+  return answer !== null && status !== "done" && !(status === "failed" && answer.outcome === "failed");
 }
 
 export interface Toast {
@@ -48,6 +54,8 @@ export interface Origin {
   fileName: string;
   home: Home | null;
   savedText: string;
+  /** Files that the text names: columns of tables. */
+  files: NamedFiles;
 }
 
 export interface StudioState extends Origin {
@@ -120,6 +128,7 @@ export const studio = createStore<StudioState>({
   plotted: null,
   toasts: [],
   savedText: EMPTY_MODEL,
+  files: {},
   folder: null,
 });
 

@@ -25,9 +25,9 @@ class PlayedWorker {
   }
 }
 
-function start() {
+function start(files?: () => Record<string, string>) {
   PlayedWorker.made = [];
-  return startKernel({ makeWorker: () => new PlayedWorker() as unknown as Worker, kernelUrl: "kernel/pintle.wasm" });
+  return startKernel({ makeWorker: () => new PlayedWorker() as unknown as Worker, kernelUrl: "kernel/pintle.wasm", files });
 }
 
 describe("the kernel's client", () => {
@@ -39,6 +39,14 @@ describe("the kernel's client", () => {
     const checking = kernel.check("x");
     PlayedWorker.made[1]?.answer({ fault: { message: "no", hint: "try" } });
     await expect(checking).rejects.toMatchObject({ message: "no", hint: "try" });
+  });
+
+  it("sends the files that the text names: those of the open model, unless the call has its own", () => {
+    const kernel = start(() => ({ "mine.csv": "open", "other.csv": "unused" }));
+    void kernel.check('file = "mine.csv"');
+    void kernel.run('file = "mine.csv"', { files: { "mine.csv": "own" } });
+    const sent = PlayedWorker.made.map((worker) => (worker.sent[0]!.args as { files: unknown }).files);
+    expect(sent).toEqual([{ "mine.csv": "open" }, { "mine.csv": "own" }]);
   });
 
   it("rejects what was pending when a worker dies, and starts another", async () => {

@@ -3,7 +3,8 @@ import { vi } from "vitest";
 
 export class Kept implements Pick<Storage, "getItem" | "setItem" | "removeItem" | "key" | "length"> {
   readonly entries = new Map<string, string>();
-  full = false;
+  /** Length of the longest entry that is taken. */
+  room = Number.POSITIVE_INFINITY;
   get length(): number {
     return this.entries.size;
   }
@@ -14,7 +15,7 @@ export class Kept implements Pick<Storage, "getItem" | "setItem" | "removeItem" 
     return this.entries.get(key) ?? null;
   }
   setItem(key: string, value: string): void {
-    if (this.full) throw new Error("full");
+    if (value.length > this.room) throw new Error("full");
     this.entries.set(key, value);
   }
   removeItem(key: string): void {

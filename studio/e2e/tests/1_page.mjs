@@ -15,6 +15,24 @@ async function violations(page) {
   return found.violations.map((one) => `${one.id} (${one.impact}): ${one.nodes.slice(0, 3).map((node) => `${node.target} ${node.failureSummary}`).join(" | ")}`);
 }
 
+/** In the page: controls and words of its bars that overlap each other or stick out of their bar. */
+function crowded() {
+  const found = [];
+  for (const bar of [".head", ".transport", ".dock .tabs", ".side .tabs"].map((one) => document.querySelector(one))) {
+    const room = bar.getBoundingClientRect();
+    const all = [...bar.querySelectorAll("button, select, input, h1, .file, .clock, .mode-badge, .state")];
+    const seen = all.map((one) => ({ one, name: one.ariaLabel ?? one.textContent, box: one.getBoundingClientRect() })).filter(({ box }) => box.width > 0 && box.height > 0);
+    for (const { name, box } of seen) if (box.left < room.left - 1 || box.right > room.right + 1 || box.bottom > room.bottom + 1) found.push(`${name} sticks out`);
+    seen.forEach((a, i) => {
+      for (const b of seen.slice(i + 1)) {
+        const overlap = Math.min(Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left), Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top));
+        if (overlap > 1 && !a.one.contains(b.one)) found.push(`${a.name} on ${b.name}`);
+      }
+    });
+  }
+  return found;
+}
+
 export const tests = {
   async "first paint under a second, all under 1.5 MB compressed"(world) {
     world.server.sent.clear();
@@ -41,6 +59,21 @@ export const tests = {
     await settled(page);
     await page.context().close();
     assert.deepEqual(foreign, []);
+  },
+
+  async "controls neither overlap nor leave the window, however narrow"(world) {
+    for (const [width, side] of [[640, "properties"], [860, "text"], [1000, "properties"], [1100, "text"], [1280, null]]) {
+      const page = await world.visit({ viewport: { width, height: 700 } });
+      // The answer to the empty text would replace the state that is set here.
+      await page.waitForFunction(() => window.pintleStudio.get().kernelState !== "starting");
+      await page.evaluate((side) => {
+        const progress = { fraction: 0.42, t: 1, duration: 2, pass: 1, wall_seconds: 4, seconds_left: 12 };
+        window.pintleStudio.set((now) => ({ side, dock: "problems", run: { ...now.run, status: "running", progress } }));
+      }, side);
+      await page.locator(".run-line .state.busy").waitFor();
+      assert.deepEqual(await page.evaluate(crowded), [], `${width} px`);
+      await page.context().close();
+    }
   },
 
   async "axe finds nothing, light and dark, in every panel"(world) {

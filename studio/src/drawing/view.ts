@@ -1,6 +1,6 @@
 // The canvas: a scene, a camera, and the overlay of the active tool. It follows the page's state by itself; React takes
 // no part in the animation loop.
-import { onOpened } from "../actions";
+import { isJustOpened, onOpened } from "../actions";
 import { type Point, distance, toWorld } from "../model/geometry";
 import { GROUND, type Model, extent, markerOf } from "../model/model";
 import { player } from "../play/player";
@@ -121,7 +121,7 @@ export class View {
     if (!this.ranOnce && now.run.status === "done" && now.run.serial !== shown.run?.serial && now.model.bodies.length > 0) {
       this.ranOnce = true;
       this.stretchGuides(now.model);
-      if (this.own === this.camera && now.history.past[now.history.past.length - 1]?.key.startsWith("open:") !== false) this.fit();
+      if (this.own === this.camera && isJustOpened(now.history)) this.fit();
     }
     const again =
       shown.model !== now.model || shown.show !== now.show || shown.scale !== this.camera.scale || Math.abs((shown.forceScale ?? 0) - forceScale) > 0.3 * forceScale;

@@ -5,7 +5,7 @@ import { EMPTY_MODEL } from "../model/operations";
 
 const storage = local as unknown as Storage;
 const tab = session as unknown as Storage;
-const draft = (text: string, more = {}) => ({ text, fileName: "a.toml", savedText: "", home: null, before: [], opened: [], time: Date.now(), closed: false, ...more });
+const draft = (text: string, more = {}) => ({ text, fileName: "a.toml", savedText: "", home: null, files: {}, before: [], opened: [], time: Date.now(), closed: false, ...more });
 
 /** Reloads the page's modules, as in a new tab. */
 async function visit() {
@@ -23,7 +23,7 @@ describe("drafts", () => {
   beforeEach(() => {
     vi.useFakeTimers();
     local.entries.clear();
-    local.full = false;
+    local.room = Number.POSITIVE_INFINITY;
     session.entries.clear();
     vi.stubGlobal("window", Object.assign(new EventTarget(), Object.fromEntries(Object.entries(page))));
   });
@@ -47,25 +47,32 @@ describe("drafts", () => {
     expect(again.studio.get().history.text).toBe(model("two"));
   });
 
-  it("leads back by undo to the file of the text before", async () => {
+  it("leads back by undo to the file and the tables of the text before", async () => {
     const home = (path: string) => ({ kind: "folder" as const, folder: "models", path, hash: path });
     const one = await visit();
-    one.openText(model("a"), "a.toml", { home: home("a.toml") });
+    const tables = (of: string) => ({ "mine.csv": of });
+    one.openText(model("a"), "a.toml", { home: home("a.toml"), files: tables("a") });
     one.editText(model("a1"), "Edit");
-    one.openText(model("b"), "b.toml", { home: home("b.toml") });
+    one.openText(model("b"), "b.toml", { home: home("b.toml"), files: tables("b") });
     one.editText(model("b1"), "Edit");
     vi.advanceTimersByTime(200);
     const again = await visit();
-    const seen = () => [again.studio.get().history.text, again.studio.get().home] as const;
-    expect(seen()).toEqual([model("b1"), home("b.toml")]);
+    const seen = () => [again.studio.get().history.text, again.studio.get().home, again.studio.get().files] as const;
+    expect(seen()).toEqual([model("b1"), home("b.toml"), tables("b")]);
     again.undo();
     again.undo();
-    expect(seen()).toEqual([model("a1"), home("a.toml")]);
+    expect(seen()).toEqual([model("a1"), home("a.toml"), tables("a")]);
     again.undo();
     again.undo();
-    expect(seen()).toEqual([EMPTY_MODEL, null]);
+    expect(seen()).toEqual([EMPTY_MODEL, null, {}]);
     for (let i = 0; i < 4; i++) again.redo();
-    expect(seen()).toEqual([model("b1"), home("b.toml")]);
+    expect(seen()).toEqual([model("b1"), home("b.toml"), tables("b")]);
+  });
+
+  it("keeps the text where there is no room for its tables", () => {
+    local.room = 2000;
+    expect(writeDraft(storage, "large", draft(model("a"), { files: { "mine.csv": "0,1\n".repeat(1000) } }))).toBe(true);
+    expect(readDraft(storage, "large")).toMatchObject({ text: model("a"), files: {} });
   });
 
   it("goes on in a new tab where the last one was closed, but not where one is open", async () => {
@@ -97,7 +104,7 @@ describe("drafts", () => {
 
   it("says once that the store refuses", async () => {
     const { editText, studio } = await visit();
-    local.full = true;
+    local.room = 0;
     for (const name of ["a", "b", "c"]) {
       editText(model(name), "Edit");
       vi.advanceTimersByTime(200);

@@ -1,7 +1,7 @@
 // Nothing is lost: the text, the previous texts (to which undo leads back, in fewer or coarser steps) and the page's settings are
 // stored in the browser after every change.
 import { newDocument, openText, openingKey, originBefore, say } from "../actions";
-import { type History, change, newHistory } from "../model/history";
+import { type History, change, newHistory, step } from "../model/history";
 import { readModel } from "../model/model";
 import { EMPTY_MODEL } from "../model/operations";
 import { type Home, type Origin, studio } from "../state";
@@ -17,33 +17,33 @@ let written = false;
 let refused = false;
 
 function draftNow(closed: boolean): Draft {
-  const { history, fileName, savedText, home } = studio.get();
+  const { history, fileName, savedText, home, files } = studio.get();
   const before: string[] = [];
   const opened: Draft["opened"] = [];
   let text = history.text;
   for (let i = history.past.length - 1, room = 400_000; i >= 0 && before.length < 100; i--) {
     const step = history.past[i]!;
     text = text.slice(0, step.at) + step.removed + text.slice(step.at + step.inserted.length);
-    room -= text.length;
+    const origin = originBefore(step.key);
+    room -= text.length + (origin ? JSON.stringify(origin.files).length : 0);
     if (room < 0) break;
     before.unshift(text);
-    const origin = originBefore(step.key);
-    if (origin) opened.unshift({ behind: before.length, fileName: origin.fileName, home: folderOnly(origin.home) });
+    if (origin) opened.unshift({ behind: before.length, fileName: origin.fileName, home: folderOnly(origin.home), files: origin.files });
   }
-  return { text: history.text, fileName, savedText, home: folderOnly(home), before, opened, time: Date.now(), closed };
+  return { text: history.text, fileName, savedText, home: folderOnly(home), files, before, opened, time: Date.now(), closed };
 }
 
 const folderOnly = (home: Home | null): Draft["home"] => (home?.kind === "folder" ? home : null);
 
 // Steps that opened another text also lead back to its file.
 function historyOf(draft: Draft): { history: History; origin: Origin } {
-  const { before, text, opened, fileName, home, savedText } = draft;
-  const origin: Origin = { document: newDocument(), fileName, home, savedText };
-  const origins = [...opened.map((one): Origin => ({ document: newDocument(), fileName: one.fileName, home: one.home, savedText: "" })), origin];
+  const { before, text, opened, fileName, home, savedText, files } = draft;
+  const origin: Origin = { document: newDocument(), fileName, home, savedText, files };
+  const origins = [...opened.map((one): Origin => ({ document: newDocument(), fileName: one.fileName, home: one.home, savedText: "", files: one.files })), origin];
   let history = newHistory(before[0] ?? text);
   [...before.slice(1), text].forEach((next, i) => {
     const at = opened.findIndex((one) => one.behind === before.length - i);
-    history = at < 0 ? change(history, next, "Edit") : change(history, next, `Open ${origins[at + 1]!.fileName}`, openingKey(origins[at]!, origins[at + 1]!));
+    history = at < 0 ? change(history, next, "Edit") : step(history, next, `Open ${origins[at + 1]!.fileName}`, openingKey(origins[at]!, origins[at + 1]!));
   });
   return { history, origin };
 }
@@ -88,7 +88,7 @@ export function otherDrafts(): KeptDraft[] {
 export function openDraft(id: string): void {
   const draft = storage && readDraft(storage, id);
   if (!storage || !draft) return;
-  openText(draft.text, draft.fileName, { home: draft.home, savedText: draft.savedText });
+  openText(draft.text, draft.fileName, { home: draft.home, savedText: draft.savedText, files: draft.files });
   remember();
   if (draft.closed) removeDraft(storage, id);
 }
@@ -115,7 +115,7 @@ export function startAutosave(): void {
   let settings = "";
   studio.subscribe(() => {
     const now = studio.get();
-    if (now.history !== seen.history || now.savedText !== seen.savedText || now.home !== seen.home) {
+    if (now.history !== seen.history || now.savedText !== seen.savedText || now.home !== seen.home || now.files !== seen.files) {
       clearTimeout(timer);
       timer = setTimeout(() => remember(), 150);
     }

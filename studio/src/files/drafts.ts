@@ -1,4 +1,5 @@
 // What the browser stores of each tab's work: one entry per tab, so that no tab overwrites another's.
+import type { NamedFiles } from "../kernel/named-files";
 import { readModel } from "../model/model";
 import type { Home } from "../state";
 
@@ -8,10 +9,12 @@ export interface Draft {
   savedText: string;
   /** The file in the folder of `pintle studio` to which it is saved; file handles cannot be stored. */
   home: Extract<Home, { kind: "folder" }> | null;
+  /** Files that the text names. */
+  files: NamedFiles;
   /** Previous texts, newest last; as many as there is room for. */
   before: string[];
   /** Previous texts that came from elsewhere; `behind`: place in `before`, counted from the newest, of the text that a step replaced by another. */
-  opened: { behind: number; fileName: string; home: Draft["home"] }[];
+  opened: { behind: number; fileName: string; home: Draft["home"]; files: NamedFiles }[];
   /** Time of writing [ms]. */
   time: number;
   /** The tab has been closed. */
@@ -34,7 +37,7 @@ export function readDraft(storage: Storage, id: string): KeptDraft | null {
     const kept = JSON.parse(storage.getItem(PREFIX + id) ?? "null") as Partial<Draft> | null;
     if (typeof kept?.text !== "string") return null;
     const before = (kept.before ?? []).filter((one) => typeof one === "string");
-    return { id, text: kept.text, fileName: kept.fileName ?? "untitled.toml", savedText: kept.savedText ?? "", home: kept.home ?? null, before, opened: kept.opened ?? [], time: kept.time ?? 0, closed: kept.closed ?? true };
+    return { id, text: kept.text, fileName: kept.fileName ?? "untitled.toml", savedText: kept.savedText ?? "", home: kept.home ?? null, files: kept.files ?? {}, before, opened: (kept.opened ?? []).map((one) => ({ ...one, files: one.files ?? {} })), time: kept.time ?? 0, closed: kept.closed ?? true };
   } catch {
     return null;
   }
@@ -50,7 +53,7 @@ export function listDrafts(storage: Storage): KeptDraft[] {
 
 /** False if the browser refuses because its storage is full or forbidden. */
 export function writeDraft(storage: Storage, id: string, draft: Draft): boolean {
-  const attempts = [() => undefined, () => (draft = { ...draft, before: [], opened: [] }), () => dropOldest(storage, id)];
+  const attempts = [() => undefined, () => (draft = { ...draft, before: [], opened: [] }), () => (draft = { ...draft, files: {} }), () => dropOldest(storage, id)];
   for (const prepare of attempts) {
     prepare();
     try {

@@ -3,7 +3,7 @@ import { say } from "../actions";
 import type { Size } from "../drawing/camera";
 import { theView } from "../drawing/canvas";
 import { kernel } from "../play/kernel-session";
-import { studio } from "../state";
+import { isOutdated, studio } from "../state";
 import sceneStyle from "../styles/scene.css?inline";
 import { download } from "./disk";
 import { Film, type Picture, filmAsGif } from "./film";
@@ -23,10 +23,10 @@ export async function exportAs(kind: Export): Promise<void> {
   }
 }
 
-// After a change of the text, its run takes time; until then the previous run is exported.
+// After a change of the text, its run takes time, or there will be none; the previous run is exported.
 function sayIfOld(): void {
-  const { status } = studio.get().run;
-  if (status === "running" || status === "none") say("This is the run before your last change; the new run is not computed yet.");
+  const { run } = studio.get();
+  if (isOutdated(run)) say(`This is the run before your last change; ${run.status === "running" ? "the new run is not computed yet" : "the model as it is now has no run, see Problems"}.`);
 }
 
 function exportCsv(): void {

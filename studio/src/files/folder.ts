@@ -1,6 +1,5 @@
 // The folder of `pintle studio`, if that program serves the page: models are opened from it and saved into it.
-import { asFault, noteSaved, openText, say, showFaults } from "../actions";
-import { keepNamedFile } from "../kernel/named-files";
+import { noteSaved, openText, say, sayFault, showFaults } from "../actions";
 import { type NativeServer, sessionToken } from "../kernel/native";
 import { kernel } from "../play/kernel-session";
 import { studio } from "../state";
@@ -25,19 +24,24 @@ export async function startFolder(mayOpen = true): Promise<void> {
   const start = `${sessionToken()} ${model}`;
   if (!model || !mayOpen || kept(BEGUN) === start) {
     keep(BEGUN, start);
-    if (mayOpen && path && !unsaved) await refresh(path);
+    if (mayOpen && path) await refresh(path);
     return;
   }
   keep(BEGUN, start);
   if (path !== model || !unsaved) return openFromFolder(model);
   const open = () => (studio.get().document === document ? void openFromFolder(model) : undefined);
   say(`This is your unsaved work on ${model}.`, { label: "Open the file", run: open });
+  await refresh(model);
 }
 
-// Another program may have written the file since.
+// Another program may have written the file or its tables since. Unsaved work keeps its text.
 async function refresh(path: string): Promise<void> {
-  const now = await server?.open(path).catch(() => null);
-  if (now && now.text !== studio.get().history.text) await openFromFolder(path);
+  const { document } = studio.get();
+  const read = await server?.open(path).catch(() => null);
+  const { history, savedText, files, document: openNow } = studio.get();
+  if (!read || openNow !== document) return;
+  if (read.text !== history.text && history.text === savedText) return openFromFolder(path);
+  if (Object.entries(read.files).some(([name, table]) => files[name] !== table)) studio.set({ files: { ...files, ...read.files } });
 }
 
 // For the lifetime of the tab.
@@ -62,7 +66,7 @@ export async function showFolder(): Promise<void> {
   try {
     studio.set({ folder: { name: server.folder, models: await server.list() }, dialog: "folder" });
   } catch (error) {
-    say(asFault(error).message);
+    sayFault(error);
   }
 }
 
@@ -70,13 +74,12 @@ export async function openFromFolder(path: string): Promise<void> {
   if (!server) return;
   try {
     const { text, hash, files } = await server.open(path);
-    for (const [name, table] of Object.entries(files)) keepNamedFile(name, table);
     const model = await asModel(path, text);
-    openText(model.text, model.fileName, model.converted ? { savedText: "" } : { home: { kind: "folder", folder: server.folder, path, hash } });
+    openText(model.text, model.fileName, { files, ...(model.converted ? { savedText: "" } : { home: { kind: "folder", folder: server.folder, path, hash } }) });
     showFaults();
     studio.set({ dialog: null });
   } catch (error) {
-    say(asFault(error).message);
+    sayFault(error);
   }
 }
 
@@ -108,6 +111,6 @@ async function write(path: string, expected: string | null): Promise<void> {
     const again = () => (studio.get().document === document ? void inTurn(() => write(path, hash)) : say("Another model is open now: nothing was written."));
     say(`${path} ${why}.`, { label: hash === null ? "Write it again" : "Overwrite it", run: again });
   } catch (error) {
-    say(asFault(error).message);
+    sayFault(error);
   }
 }

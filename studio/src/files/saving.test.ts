@@ -1,6 +1,7 @@
 import { local, session } from "../../tests/page";
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import { edit, openText, redo, undo } from "../actions";
+import { KernelFault } from "../kernel/fault";
 import { newHistory } from "../model/history";
 import { EMPTY_MODEL } from "../model/operations";
 import { studio } from "../state";
@@ -9,12 +10,14 @@ import { openFromFolder, startFolder } from "./folder";
 
 /** The folder of a server, in which a text serves as its own hash. */
 const files = new Map<string, string>();
+/** What its tables contain, by the path of the model that names them. */
+const tables = new Map<string, Record<string, string>>();
 const server = {
   version: "0",
   folder: "models",
   model: null as string | null,
   list: async () => [],
-  open: async (path: string) => ({ path, text: files.get(path)!, hash: files.get(path)!, files: {} }),
+  open: async (path: string) => ({ path, text: files.get(path)!, hash: files.get(path)!, files: tables.get(path) ?? {} }),
   save: async (path: string, text: string, expected: string | null) => {
     await new Promise((resolve) => setTimeout(resolve, 5));
     const now = files.get(path) ?? null;
@@ -32,6 +35,7 @@ const said = () => now().toasts.at(-1);
 describe("saving in the folder of pintle studio", () => {
   beforeEach(async () => {
     files.clear();
+    tables.clear();
     local.entries.clear();
     await startFolder();
     studio.set({ dialog: null, toasts: [] });
@@ -72,6 +76,31 @@ describe("saving in the folder of pintle studio", () => {
     expect(now().savedText).toBe(model("a, changed"));
   });
 
+  it("gives each text its own tables again on undo and redo, though they have the same name", async () => {
+    files.set("A/x.toml", model("a")).set("B/x.toml", model("b"));
+    tables.set("A/x.toml", { "mine.csv": "a" }).set("B/x.toml", { "mine.csv": "b" });
+    await openFromFolder("A/x.toml");
+    await openFromFolder("B/x.toml");
+    expect(now().files).toEqual({ "mine.csv": "b" });
+    undo();
+    expect(now().files).toEqual({ "mine.csv": "a" });
+    redo();
+    expect(now().files).toEqual({ "mine.csv": "b" });
+  });
+
+  it("leads back by undo to another file with the same text, but has no step for the same file again", async () => {
+    files.set("A/x.toml", model("same")).set("B/x.toml", model("same"));
+    tables.set("A/x.toml", { "mine.csv": "a" }).set("B/x.toml", { "mine.csv": "b" });
+    await openFromFolder("A/x.toml");
+    const steps = now().history.past.length;
+    await openFromFolder("A/x.toml");
+    expect(now().history.past.length).toBe(steps);
+    await openFromFolder("B/x.toml");
+    expect([now().fileName, now().files]).toEqual(["B/x.toml", { "mine.csv": "b" }]);
+    undo();
+    expect([now().fileName, now().files]).toEqual(["A/x.toml", { "mine.csv": "a" }]);
+  });
+
   it("saves twice in a row without a conflict with itself", async () => {
     files.set("a.toml", model("a"));
     await openFromFolder("a.toml");
@@ -97,6 +126,16 @@ describe("saving in the folder of pintle studio", () => {
     expect(files.get("a.toml")).toBe(model("theirs"));
   });
 
+  it("says what is wrong with a folder or a name, and what to try", async () => {
+    vi.spyOn(server, "save").mockRejectedValueOnce(new KernelFault({ message: "There is no such folder.", hint: "Make the folder first." }));
+    openText(model("one"), "untitled.toml");
+    await saveUnder("nowhere/one");
+    expect(said()?.text).toBe("There is no such folder. Make the folder first.");
+    vi.spyOn(server, "open").mockRejectedValueOnce(new KernelFault({ message: "There is no such model file.", hint: "" }));
+    await openFromFolder("gone.toml");
+    expect(said()?.text).toBe("There is no such model file.");
+  });
+
   it("opens JSON as a new TOML file", async () => {
     files.set("m/a.json", "{}");
     await openFromFolder("m/a.json");
@@ -107,7 +146,7 @@ describe("saving in the folder of pintle studio", () => {
 });
 
 describe("the model that pintle studio was started with", () => {
-  const mine = { document: 900, fileName: "a.toml", home: { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") }, savedText: model("disk") };
+  const mine = { document: 900, files: {} as Record<string, string>, fileName: "a.toml", home: { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") }, savedText: model("disk") };
   const begin = async (token: string, text: string, mayOpen = true) => {
     session.setItem("pintle.token", token);
     studio.set({ ...mine, history: newHistory(text), toasts: [] });
@@ -117,6 +156,7 @@ describe("the model that pintle studio was started with", () => {
   beforeEach(() => {
     session.entries.clear();
     files.clear();
+    tables.clear();
     files.set("a.toml", model("disk"));
     server.model = "a.toml";
   });
@@ -137,9 +177,23 @@ describe("the model that pintle studio was started with", () => {
     expect(await begin("2", model("mine"))).toBe(model("mine"));
     expect(said()?.action?.label).toBe("Open the file");
     expect(await begin("3", model("disk"))).toBe(model("disk"));
+    tables.set("a.toml", { "mine.csv": "1" });
+    expect(await begin("3", model("disk"))).toBe(model("disk"));
+    expect(now().files).toEqual({ "mine.csv": "1" });
     files.set("a.toml", model("theirs"));
     expect(await begin("3", model("disk"))).toBe(model("theirs"));
   });
+});
+
+it("reads the tables of unsaved work again after a reload, and keeps those that only its text names", async () => {
+  server.model = null;
+  files.set("a.toml", model("disk"));
+  tables.set("a.toml", { "mine.csv": "new" });
+  const home = { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") };
+  studio.set({ home, savedText: model("disk"), history: newHistory(model("mine")), files: { "mine.csv": "old", "other.csv": "kept" } });
+  await startFolder();
+  expect(now().history.text).toBe(model("mine"));
+  expect(now().files).toEqual({ "mine.csv": "new", "other.csv": "kept" });
 });
 
 it("says that a dropped folder cannot be read", async () => {

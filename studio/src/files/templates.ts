@@ -1,9 +1,12 @@
 // The collection: the text of every mechanism of the repository, and the files that these name.
-import { keepNamedFile } from "../kernel/named-files";
+import { type NamedFiles, filesNamedIn } from "../kernel/named-files";
 
 const files = import.meta.glob("../../../mechanisms/*.toml", { query: "?raw", import: "default", eager: true }) as Record<string, string>;
-const tables = import.meta.glob("../../../mechanisms/*.csv", { query: "?raw", import: "default", eager: true }) as Record<string, string>;
-for (const [path, text] of Object.entries(tables)) keepNamedFile(path.replace(/^.*\//, ""), text);
+const TABLES: NamedFiles = Object.fromEntries(Object.entries(import.meta.glob("../../../mechanisms/*.csv", { query: "?raw", import: "default", eager: true }) as Record<string, string>).map(([path, text]) => [baseName(path), text]));
+
+function baseName(path: string): string {
+  return path.replace(/^.*\//, "");
+}
 
 export interface Template {
   file: string;
@@ -11,6 +14,8 @@ export interface Template {
   /** Its first sentence. */
   about: string;
   text: string;
+  /** The files that it names. */
+  files: NamedFiles;
 }
 
 const ORDER = [
@@ -21,13 +26,14 @@ const ORDER = [
 
 export const TEMPLATES: readonly Template[] = Object.entries(files)
   .map(([path, text]) => {
-    const file = path.replace(/^.*\//, "");
+    const file = baseName(path);
     const head = /^(?:#.*\n)+/.exec(text)?.[0].replace(/^#\s?/gm, "").replace(/\n/g, " ") ?? "";
     return {
       file,
       name: /^name = "(.*)"$/m.exec(text)?.[1] ?? file,
       about: (/^.*?\.(?=\s)/.exec(head)?.[0] ?? head).trim(),
       text,
+      files: filesNamedIn(text, TABLES),
     };
   })
   .sort((a, b) => rank(a.file) - rank(b.file) || a.file.localeCompare(b.file, "en", { numeric: true }));

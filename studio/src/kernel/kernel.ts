@@ -2,7 +2,7 @@
 // questions, for the motion during playback, for checks, runs and reports; so that no slow call delays the others.
 import { KernelFault } from "./fault";
 import type { FromWorker, ToWorker } from "./messages";
-import { withNamedFiles } from "./named-files";
+import { type NamedFiles, filesNamedIn, withNamedFiles } from "./named-files";
 import { findNativeServer, type NativeServer } from "./native";
 import type {
   AssemblyAnswer, Catalog, CheckReport, Fault, Hold, LiveFrame, LiveStart, ModelTree, Pull, ReadAnswer, RunAnswer, RunProgress,
@@ -17,6 +17,8 @@ export interface RunOptions {
   onProgress?: (progress: RunProgress) => void;
   /** Settings that differ from the model's, by path: {"simulate.tolerance": "1e-3"}. */
   set?: Record<string, string>;
+  /** Files for the text to name, if it is not the open model. */
+  files?: NamedFiles;
 }
 
 export interface RunHandle {
@@ -78,6 +80,7 @@ interface Pending {
 export interface CallOptions {
   onProgress?: (progress: RunProgress) => void;
   goOn?: string;
+  files?: NamedFiles;
 }
 
 interface Call {
@@ -92,14 +95,18 @@ class Line {
   private next = 1;
   private answered = false;
 
-  constructor(private readonly makeWorker: () => Worker, private readonly kernelUrl: string) {}
+  constructor(
+    private readonly makeWorker: () => Worker,
+    private readonly kernelUrl: string,
+    private readonly files: () => NamedFiles,
+  ) {}
 
   call(name: string, args: unknown, options: CallOptions = {}): Call {
     const id = this.next++;
     const result = new Promise((resolve, reject) => {
       this.pending.set(id, { resolve, reject, onProgress: options.onProgress });
       try {
-        this.start().postMessage({ id, call: name, args: withNamedFiles(args), kernelUrl: this.kernelUrl, goOn: options.goOn } satisfies ToWorker);
+        this.start().postMessage({ id, call: name, args: withNamedFiles(args, options.files ?? this.files()), kernelUrl: this.kernelUrl, goOn: options.goOn } satisfies ToWorker);
       } catch (error) {
         this.pending.delete(id);
         reject(new KernelFault({ kind: "missing", message: `The kernel cannot be called: ${String(error)}`, hint: "Reload the page." }));
@@ -171,13 +178,16 @@ const kGrace = 3000;
 export interface KernelPlace {
   makeWorker?: () => Worker;
   kernelUrl?: string;
+  /** The files of the open model. */
+  files?: () => NamedFiles;
 }
 
 export function startKernel(place: KernelPlace = {}): Kernel {
   const makeWorker = place.makeWorker ?? (() => new Worker(new URL("./worker.ts", import.meta.url), { type: "module" }));
   const kernelUrl = place.kernelUrl ?? new URL("kernel/pintle.wasm", document.baseURI).href;
+  const files = place.files ?? (() => ({}));
   const lines: Partial<Record<Role, Line>> = {};
-  const line = (role: Role) => (lines[role] ??= new Line(makeWorker, kernelUrl));
+  const line = (role: Role) => (lines[role] ??= new Line(makeWorker, kernelUrl, files));
   const ask = <T>(role: Role, name: string, args: unknown, options?: CallOptions) => line(role).call(name, args, options).result as Promise<T>;
 
   let server: Promise<NativeServer | null> | undefined;
@@ -185,9 +195,11 @@ export function startKernel(place: KernelPlace = {}): Kernel {
 
   function runNative(text: string, options: RunOptions): RunHandle {
     let handle: RunHandle | undefined, cancelled = false;
+    // Another model may be open by the time the server is found.
+    const named = filesNamedIn(text, options.files ?? files());
     const result = native().then((found) => {
       if (!found) throw new KernelFault({ message: "This page was not served by pintle studio.", hint: "Run it in the browser." });
-      handle = found.run(text, options.set ?? {}, options.onProgress);
+      handle = found.run(text, options.set ?? {}, named, options.onProgress);
       if (cancelled) handle.cancel();
       return handle.result;
     });
@@ -203,7 +215,7 @@ export function startKernel(place: KernelPlace = {}): Kernel {
   function run(text: string, options: RunOptions = {}): RunHandle {
     if (options.where === "native") return runNative(text, options);
     const goOn = URL.createObjectURL(new Blob(["go on"]));
-    const call = line("run").call("run", { text, set: options.set ?? {} }, { onProgress: options.onProgress, goOn });
+    const call = line("run").call("run", { text, set: options.set ?? {} }, { onProgress: options.onProgress, goOn, files: options.files });
     return {
       result: (call.result as Promise<RunAnswer>).finally(() => URL.revokeObjectURL(goOn)),
       cancel: () => {

@@ -1,24 +1,19 @@
 // Files that a model names, such as the columns of a table: `file = "gas.csv"`. The kernel reads no files; it receives those that the page has.
 
-const known = new Map<string, string>();
+/** The texts of files, under the names that the model uses for them. */
+export type NamedFiles = Readonly<Record<string, string>>;
 
-/** Stores a file in the page, under the name that models use for it. */
-export function keepNamedFile(name: string, text: string): void {
-  known.set(name, text);
-}
-
-/** The files that a model's text names and the page has. */
-export function filesNamedIn(text: string): Record<string, string> {
+/** Those of the known files that a model's text names. */
+export function filesNamedIn(text: string, known: NamedFiles): Record<string, string> {
   const files: Record<string, string> = {};
   for (const [, name] of text.matchAll(/\bfile["']?\s*[=:]\s*["']([^"'\n]+)["']/g)) {
-    const file = name === undefined ? undefined : known.get(name);
-    if (name !== undefined && file !== undefined) files[name] = file;
+    if (name !== undefined && Object.hasOwn(known, name)) files[name] = known[name]!;
   }
   return files;
 }
 
-/** Arguments of a call; if they contain a model's text, the files that it names are added. */
-export function withNamedFiles(args: unknown): unknown {
+/** Arguments of a call; if they contain a model's text, the known files that it names are added. */
+export function withNamedFiles(args: unknown, known: NamedFiles): unknown {
   if (typeof args !== "object" || args === null || !("text" in args) || typeof args.text !== "string") return args;
-  return { ...args, files: filesNamedIn(args.text) };
+  return { ...args, files: filesNamedIn(args.text, known) };
 }

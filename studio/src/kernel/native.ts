@@ -1,7 +1,7 @@
 // The server of `pintle studio`, if it serves the page: the native kernel for long runs, and the models of the folder in which it
 // was started in. docs/reference/studio-server.md
 import { KernelFault } from "./fault";
-import { withNamedFiles } from "./named-files";
+import type { NamedFiles } from "./named-files";
 import { unpacked } from "./packed";
 import type { RunAnswer, RunProgress } from "./protocol";
 
@@ -36,7 +36,7 @@ export interface NativeServer {
   open(path: string): Promise<OpenedModel>;
   /** `expected` is the hash of the content to be replaced, null for a new file. */
   save(path: string, text: string, expected: string | null): Promise<{ hash: string } | { conflict: Conflict }>;
-  run(text: string, set: Record<string, string>, onProgress?: (progress: RunProgress) => void): { result: Promise<RunAnswer>; cancel(): void };
+  run(text: string, set: Record<string, string>, files: NamedFiles, onProgress?: (progress: RunProgress) => void): { result: Promise<RunAnswer>; cancel(): void };
 }
 
 const kPollMilliseconds = 200;
@@ -87,7 +87,7 @@ export async function findNativeServer(base = new URL("api/", document.baseURI).
   if (!token) return null;
   const questions = new Questions(base, token);
   const about = await questions.json<{ version: string; folder: string; model: string | null }>("about").catch(() => null);
-  return about && { ...about, ...filesOf(questions), run: (text, set, onProgress) => runOn(questions, text, set, onProgress) };
+  return about && { ...about, ...filesOf(questions), run: (text, set, files, onProgress) => runOn(questions, { text, set, files }, onProgress) };
 }
 
 function filesOf(questions: Questions): Pick<NativeServer, "list" | "open" | "save"> {
@@ -102,12 +102,12 @@ function filesOf(questions: Questions): Pick<NativeServer, "list" | "open" | "sa
   };
 }
 
-function runOn(questions: Questions, text: string, set: Record<string, string>, onProgress?: (progress: RunProgress) => void) {
+function runOn(questions: Questions, asked: { text: string; set: Record<string, string>; files: NamedFiles }, onProgress?: (progress: RunProgress) => void) {
   let cancelled = false;
   let path: string | undefined;
   const stop = () => path && questions.ask(path, "DELETE").catch(() => undefined);
   const result = (async () => {
-    path = `runs/${(await questions.json<{ id: number }>("runs", "POST", withNamedFiles({ text, set }))).id}`;
+    path = `runs/${(await questions.json<{ id: number }>("runs", "POST", asked)).id}`;
     if (cancelled) await stop();
     for (;;) {
       const now = await questions.json<{ state: "running" | "done"; progress?: RunProgress | null }>(path);

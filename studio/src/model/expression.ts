@@ -1,11 +1,12 @@
-// Values of expressions, for drawing before the kernel has answered. Checking dimensions is left to the kernel; only the number
-// matters here. A unit binds to the number before it, and names of parameters take precedence over units.
-import { UNITS } from "./units";
+// Values of expressions, for drawing before the kernel has answered. A unit binds to the number before it, and names of parameters take precedence over units.
+import { type Dimension, UNITS } from "./units";
 
 export type Scope = (name: string) => number | undefined;
 
 const CONSTANTS: Readonly<Record<string, number>> = { pi: Math.PI, e: Math.E };
 const NO_NAMES: Scope = () => undefined;
+/** The sizes of m, kg, s and rad: in other sizes, a value changes as its dimension says. */
+const SI: Dimension = [1, 1, 1, 1];
 
 const FUNCTIONS: Readonly<Record<string, (...values: number[]) => number>> = {
   sin: Math.sin,
@@ -35,8 +36,8 @@ const FUNCTIONS: Readonly<Record<string, (...values: number[]) => number>> = {
 };
 
 /** The value in SI units; null if the text is not an expression, contains an unknown name or has no finite value. */
-export function evaluate(text: string, scope: Scope = NO_NAMES): number | null {
-  const value = new Evaluator(text, scope).all();
+export function evaluate(text: string, scope: Scope = NO_NAMES, sizes = SI): number | null {
+  const value = new Evaluator(text, scope, sizes).all();
   return value !== null && Number.isFinite(value) ? value : null;
 }
 
@@ -47,7 +48,7 @@ export function namesIn(text: string, known: ReadonlySet<string>): string[] {
     if (!known.has(name)) return undefined;
     names.add(name);
     return 1;
-  }).all();
+  }, SI).all();
   return [...names];
 }
 
@@ -58,6 +59,7 @@ class Evaluator {
   constructor(
     text: string,
     private readonly scope: Scope,
+    private readonly sizes: Dimension,
   ) {
     this.tokens = text.match(/\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|[A-Za-z_µ°][\w.]*|<=|>=|[-+*/^()<>,·−×]|\S/g) ?? [];
   }
@@ -150,7 +152,7 @@ class Evaluator {
   private unitHere(at: number): number | null {
     const word = this.tokens[at] ?? "";
     const unit = UNITS[word];
-    return unit && this.tokens[at + 1] !== "(" ? unit.factor : null;
+    return unit && this.tokens[at + 1] !== "(" ? unit.dimension.reduce((factor, power, i) => factor * this.sizes[i]! ** power, unit.factor) : null;
   }
 
   // symbol (('*' | '/') symbol)* with integer exponents, as far as the symbols are units.

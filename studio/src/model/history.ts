@@ -40,6 +40,11 @@ export function change(history: History, text: string, label: string, key = ""):
     const past = history.past.slice(0, -1);
     return { text, past: before === text ? past : [...past, difference(before, text, label, key)], future: [] };
   }
+  return step(history, text, label, key);
+}
+
+/** Adds a step even if it leaves the text as it is: another file with the same text. */
+export function step(history: History, text: string, label: string, key: string): History {
   return { text, past: [...history.past, difference(history.text, text, label, key)], future: [] };
 }
 

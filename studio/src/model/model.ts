@@ -5,6 +5,7 @@ import { type Point, type Pose, ORIGIN, toWorld } from "./geometry";
 import { TRACE, remarkAt, remarkOf } from "./remarks";
 import { FROM_SHAPE, type Shape, readShape } from "./shape";
 import { type Document, type Node, type TableNode, nodeAt, parseToml } from "./toml";
+import type { Dimension } from "./units";
 
 export interface Marker {
   name: string;
@@ -118,7 +119,7 @@ type Reading = (node: Node | undefined) => number | null;
 export function readModel(source: string | Document): Model {
   const document = typeof source === "string" ? parseToml(source) : source;
   const { root } = document;
-  const parameters = readParameters(tableAt(root, "parameters"));
+  const parameters = readParameters(document);
   const number: Reading = (node) => numberOf(node, (name) => parameters.get(name));
   const bodies = children(root, "body").map(([name, table]) => readBody(document, name, table, number, parameters));
   const gravity = point(root.entries.get("gravity"), number);
@@ -155,13 +156,14 @@ function textOf(node: Node | undefined): string | null {
 }
 
 // TOML has inf and nan, and an expression can divide by zero while it is being typed: neither can be drawn.
-function numberOf(node: Node | undefined, scope: Scope): number | null {
+function numberOf(node: Node | undefined, scope: Scope, sizes?: Dimension): number | null {
   if (node?.kind === "number") return Number.isFinite(node.value) ? node.value : null;
-  return node?.kind === "text" ? evaluate(node.value, scope) : null;
+  return node?.kind === "text" ? evaluate(node.value, scope, sizes) : null;
 }
 
-// Parameters may refer to each other in any order; one that refers to itself has no value.
-function readParameters(table: TableNode | null): Map<string, number> {
+/** Values of a model's parameters, in SI or in units of other sizes. They may refer to each other in any order; one that refers to itself has no value. */
+export function readParameters(document: Document, sizes?: Dimension): Map<string, number> {
+  const table = tableAt(document.root, "parameters");
   const values = new Map<string, number>();
   const open = new Set<string>();
   const find = (name: string): number | undefined => {
@@ -169,7 +171,7 @@ function readParameters(table: TableNode | null): Map<string, number> {
     if (known !== undefined || open.has(name)) return known;
     const node = table?.entries.get(name);
     open.add(name);
-    const value = numberOf(node, find);
+    const value = numberOf(node, find, sizes);
     open.delete(name);
     if (value === null) return undefined;
     values.set(name, value);

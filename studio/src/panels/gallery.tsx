@@ -8,6 +8,7 @@ import type { Template } from "../files/templates";
 import { extent, poseOf, readModel } from "../model/model";
 import { EMPTY_MODEL } from "../model/operations";
 import type { RunHandle } from "../kernel/kernel";
+import type { NamedFiles } from "../kernel/named-files";
 import { kernel } from "../play/kernel-session";
 import { Replay } from "../play/replay";
 import { studio } from "../state";
@@ -18,8 +19,8 @@ export function Gallery() {
   useEffect(() => {
     void import("../files/templates").then((module) => setTemplates(module.TEMPLATES));
   }, []);
-  const choose = (text: string, file: string) => {
-    openText(text, file);
+  const choose = (text: string, file: string, files: NamedFiles = {}) => {
+    openText(text, file, { files });
     studio.set({ dialog: null });
   };
   return (
@@ -43,12 +44,12 @@ export function Gallery() {
   );
 }
 
-function Card({ template, onChoose }: { template: Template; onChoose: (text: string, file: string) => void }) {
+function Card({ template, onChoose }: { template: Template; onChoose: (text: string, file: string, files: NamedFiles) => void }) {
   const svg = useRef<SVGSVGElement>(null);
   const picture = useRef<Picture | null>(null);
   useEffect(() => {
     if (!svg.current) return;
-    picture.current = new Picture(svg.current, template.text);
+    picture.current = new Picture(svg.current, template);
     return () => picture.current?.stop();
   }, [template]);
   return (
@@ -56,7 +57,7 @@ function Card({ template, onChoose }: { template: Template; onChoose: (text: str
       <button
         className="card"
         data-template={template.file}
-        onClick={() => onChoose(template.text, template.file)}
+        onClick={() => onChoose(template.text, template.file, template.files)}
         onPointerEnter={() => void picture.current?.play()}
         onPointerLeave={() => picture.current?.stop()}
         onFocus={() => void picture.current?.play()}
@@ -79,8 +80,8 @@ class Picture {
   private wanted = false;
   private computing: RunHandle | null = null;
 
-  constructor(svg: SVGSVGElement, private readonly text: string) {
-    this.model = readModel(text);
+  constructor(svg: SVGSVGElement, private readonly template: Template) {
+    this.model = readModel(template.text);
     svg.replaceChildren();
     this.scene = new Scene(svg);
     const size = { width: 2 * 212, height: 2 * 128 };
@@ -93,14 +94,15 @@ class Picture {
   async play(): Promise<void> {
     this.wanted = true;
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-    let replay = replays.get(this.text);
+    const { text, files } = this.template;
+    let replay = replays.get(text);
     if (!replay) {
-      this.computing = kernel.run(this.text, { set: { "simulate.tolerance": "1e-3" } });
+      this.computing = kernel.run(text, { set: { "simulate.tolerance": "1e-3" }, files });
       const answer = await this.computing.result.catch(() => null);
       this.computing = null;
       if (!answer || answer.outcome === "interrupted" || answer.values.length === 0) return;
       replay = new Replay(answer);
-      replays.set(this.text, replay);
+      replays.set(text, replay);
     }
     const begin = performance.now();
     const slow = Math.max(1, 1.5 / Math.max(replay.end, 1e-6));

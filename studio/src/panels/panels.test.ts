@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Column, PeakForce, RunAnswer } from "../kernel/protocol";
 import { quantity } from "../model/units";
 import { estimateOf } from "./results/estimate";
-import { chosenSeries, seriesOf } from "./results/series";
+import { type ForceOf, chosenSeries, seriesOf } from "./results/series";
 
 const peak = (error_estimate: number, unique = true) => ({ peak: 100, error_estimate, relative_error_estimate: error_estimate / 100, unique }) as PeakForce;
 // JSON turns a NaN into this.
@@ -32,6 +32,14 @@ it("a quantity that is no number is a dash, not 0 of something", () => {
 describe("what is on the plot", () => {
   const column = (quantity: string): Column => ({ name: `joint.A.${quantity}`, unit: "N", about: "", kind: "joint", of: "A", quantity, frame: "world", feels: "b" });
   const answer = { columns: [column("fx"), column("fy")], values: [Float64Array.of(3), Float64Array.of(4)], joints: [{ name: "A", second_body: "b", peak: 5 }] } as unknown as RunAnswer;
+  it("has live values of forces, on either body, and of nothing else", () => {
+    const more = [{ ...column("fy"), name: "joint.A.fy_first", feels: "ground" }, column("slide"), { ...column("fx"), name: "joint.A.f1", quantity: "f1", frame: "joint" }];
+    const series = seriesOf({ ...answer, columns: [...answer.columns, ...more] });
+    const values = (forceOf: ForceOf) => Object.fromEntries(series.map((one) => [one.id, one.live?.(forceOf)]));
+    expect(values((joint) => (joint === "A" ? [30, -40] : null))).toEqual({ "joint.A.|F|": 50, "joint.A.fx": 30, "joint.A.fy": -40, "joint.A.fy_first": 40, "joint.A.slide": undefined, "joint.A.f1": undefined });
+    expect(Object.values(values(() => null)).filter((value) => value !== undefined)).toEqual([]);
+  });
+
   const ids = (plotted: string[] | null) => chosenSeries(seriesOf(answer), plotted, answer).map((one) => one.id);
 
   it("is the largest force until one chooses, and nothing when all was taken off", () => {

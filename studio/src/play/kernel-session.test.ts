@@ -89,6 +89,14 @@ describe("the kernel session", () => {
     expect(studio.get().poses?.has("a")).toBe(true);
   });
 
+  it("computes again when a file that the text names has another content", async () => {
+    studio.set({ files: { "mine.csv": "1" } });
+    await rest();
+    last().resolve(answer("with the file"));
+    await rest();
+    expect(studio.get().run.answer?.method).toBe("with the file");
+  });
+
   it("takes no answer for the text before, not even in the pause before it asks again", async () => {
     edit(OTHER, "mass");
     await rest();

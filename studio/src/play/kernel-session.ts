@@ -2,6 +2,7 @@
 // an older text are discarded.
 import { asFault, localComplaints, onOpened, say } from "../actions";
 import { type DragSession, type Kernel, type RunHandle, startKernel } from "../kernel/kernel";
+import type { NamedFiles } from "../kernel/named-files";
 import type { Catalog, Fault, RunAnswer, RunProgress } from "../kernel/protocol";
 import { type Pose, distance, toWorld } from "../model/geometry";
 import type { Poses } from "../model/model";
@@ -9,7 +10,7 @@ import { quantity } from "../model/units";
 import { NO_RUN, studio } from "../state";
 import { runWhereFastest } from "./long-run";
 
-export const kernel: Kernel = startKernel();
+export const kernel: Kernel = startKernel({ files: () => studio.get().files });
 
 let generation = 0;
 let drag: DragSession | null = null;
@@ -22,13 +23,16 @@ export const catalog = (): Promise<Catalog> => (catalogAnswer ??= kernel.catalog
 let schemaAnswer: Promise<Record<string, unknown>> | null = null;
 export const schema = (): Promise<Record<string, unknown>> => (schemaAnswer ??= kernel.schema());
 
-/** Watches the text for the lifetime of the page. */
+/** Watches the text, and the files that it names, for the lifetime of the page. */
 export function startKernelSession(): void {
   let text: string | null = null;
+  let files: NamedFiles | null = null;
   const look = () => {
-    const now = studio.get().history.text;
-    if (now === text) return;
+    const { history, files: named } = studio.get();
+    const now = history.text;
+    if (now === text && named === files) return;
     text = now;
+    files = named;
     forget();
     clearTimeout(timer);
     timer = setTimeout(() => void refresh(now), 40);

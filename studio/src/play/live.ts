@@ -68,6 +68,13 @@ export class Live {
     };
   }
 
+  /** On the joint's second body: x and y of the force in world axes [N]; null where this motion has no such joint. */
+  force(joint: string): readonly [number, number] | null {
+    const j = this.joints.get(joint);
+    const of = this.frames[this.shown]?.joint_forces;
+    return j === undefined || !of ? null : [of[3 * j]!, of[3 * j + 1]!];
+  }
+
   private forces(model: Model, of: Float64Array): Float64Array {
     if (this.flat.length !== 3 * model.joints.length) this.flat = new Float64Array(3 * model.joints.length);
     model.joints.forEach((joint, i) => {

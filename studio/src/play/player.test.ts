@@ -147,6 +147,13 @@ describe("a live motion", () => {
     expect(force()).toEqual(["Q".charCodeAt(0)]);
   });
 
+  it("gives the force of a joint by its name, as long as it is live", async () => {
+    await live();
+    expect(["P", "Q", "R"].map((name) => player.liveForce(name))).toEqual([["P".charCodeAt(0), 0], ["Q".charCodeAt(0), 0], null]);
+    player.stop();
+    expect(player.liveForce("P")).toBeNull();
+  });
+
   it("takes its error back when it goes on", async () => {
     const session = await live();
     session.error = { message: "stuck", hint: "" };

@@ -311,6 +311,11 @@ class Player {
     return replay.frame(this.t, model, still);
   }
 
+  /** The force on a joint's second body in the live motion, if that has it. */
+  liveForce(joint: string): readonly [number, number] | null {
+    return this.live?.force(joint) ?? null;
+  }
+
   ghostFrame(): Frame | null {
     this.current();
     const { mode, model } = studio.get();

@@ -1,7 +1,6 @@
 // A link: its size, its shape and material, and the values derived from them unless they are stated.
 import { edit, place, select } from "../../actions";
-import { Draft, type Literal } from "../../model/edit";
-import { evaluate } from "../../model/expression";
+import { Draft } from "../../model/edit";
 import { type Body, markerOf, poseOf } from "../../model/model";
 import { toggleTrace } from "../../model/operations";
 import { applyShape, barLength, setBarAngle, setBarLength } from "../../model/reshape";
@@ -9,14 +8,8 @@ import { MATERIALS, type Shape, likelyBar, writeShape } from "../../model/shape"
 import { direction, toWorld } from "../../model/geometry";
 import { writeAngle, writeLength } from "../../model/units";
 import { studio, useStudio } from "../../state";
-import { Choice, Pair, Quantity, TextQuantity } from "./fields";
+import { Choice, ComputedQuantity, Pair, TextQuantity } from "./fields";
 import { Icon } from "../icons";
-
-const value = (literal: Literal | null, unit: number): number | null => {
-  if (literal === null) return null;
-  if (typeof literal === "number") return literal * unit;
-  return evaluate(String(literal), (name) => studio.get().model.parameters.get(name));
-};
 
 export function BodyProperties({ name }: { name: string }) {
   const body = useStudio((now) => now.model.body.get(name));
@@ -62,21 +55,15 @@ function Size({ body }: { body: Body }) {
   if (length === null || !a || !b) return null;
   const pose = poseOf(studio.get().model, body.name, poses);
   const angle = direction(toWorld(pose, a.at), toWorld(pose, b.at));
-  const setLength = (literal: Literal | null) => {
-    const metres = value(literal, 1);
-    if (metres !== null && metres > 0) place(setBarLength(studio.get().model, body.name, metres, poses), `Length of ${body.name}`);
-  };
-  const setAngle = (literal: Literal | null) => {
-    const radians = value(literal, 1);
-    if (radians !== null) place(setBarAngle(studio.get().model, body.name, radians, poses), `Angle of ${body.name}`);
-  };
+  const setLength = (metres: number) => place(setBarLength(studio.get().model, body.name, metres, poses), `Length of ${body.name}`);
+  const setAngle = (radians: number) => place(setBarAngle(studio.get().model, body.name, radians, poses), `Angle of ${body.name}`);
   return (
     <section>
       <h3>
         Size <span className="about">{`from ${a.name} to ${b.name}`}</span>
       </h3>
-      <Quantity label="Length" unit="m" literal={writeLength(length, 6)} required meaning={`Distance from ${a.name} to ${b.name}`} onChange={setLength} />
-      <Quantity label="Angle" unit="rad" literal={writeAngle(angle, 4)} required meaning="From the horizontal, at the start" onChange={setAngle} />
+      <ComputedQuantity label="Length" unit="m" positive literal={writeLength(length, 6)} meaning={`Distance from ${a.name} to ${b.name}`} onChange={setLength} />
+      <ComputedQuantity label="Angle" unit="rad" literal={writeAngle(angle, 4)} meaning="From the horizontal, at the start" onChange={setAngle} />
     </section>
   );
 }
@@ -104,18 +91,15 @@ function ShapeFields({ body }: { body: Body }) {
     );
   }
   const set = (change: Partial<Shape>) => reshape(body, { ...shape, ...change });
-  const size = (key: "width" | "height" | "thickness") => (literal: Literal | null) => {
-    const metres = value(literal, 1);
-    if (metres !== null && metres > 0) set({ [key]: metres });
-  };
+  const size = (key: "width" | "height" | "thickness") => (metres: number) => set({ [key]: metres });
   return (
     <section>
       <h3>Shape</h3>
       <Choice label="Shape" value={shape.kind} options={[{ value: "bar", label: "bar or plate" }, "block", "disc"]} onChange={(kind) => set({ kind: kind as Shape["kind"] })} />
       <Choice label="Material" value={shape.material} options={Object.entries(MATERIALS).map(([word, density]) => ({ value: word, label: `${word}, ${density} kg/m³` }))} onChange={(material) => set({ material })} />
-      <Quantity label={shape.kind === "disc" ? "Diameter" : "Width"} unit="m" literal={writeLength(shape.width, 6)} required onChange={size("width")} />
-      {shape.kind === "block" && <Quantity label="Height" unit="m" literal={writeLength(shape.height, 6)} required onChange={size("height")} />}
-      <Quantity label="Thickness" unit="m" literal={writeLength(shape.thickness, 6)} required onChange={size("thickness")} />
+      <ComputedQuantity label={shape.kind === "disc" ? "Diameter" : "Width"} unit="m" positive literal={writeLength(shape.width, 6)} onChange={size("width")} />
+      {shape.kind === "block" && <ComputedQuantity label="Height" unit="m" positive literal={writeLength(shape.height, 6)} onChange={size("height")} />}
+      <ComputedQuantity label="Thickness" unit="m" positive literal={writeLength(shape.thickness, 6)} onChange={size("thickness")} />
     </section>
   );
 }

@@ -1,11 +1,12 @@
 // Fields with units. A number keeps its author's unit; an expression remains an expression and shows its value.
 import { useEffect, useId, useState } from "react";
 import { edit } from "../../actions";
+import { valueProblem } from "../../model/dimensions";
 import { Draft, type Literal } from "../../model/edit";
-import { evaluate } from "../../model/expression";
 import { type Plain, nodeAt, plain } from "../../model/toml";
-import { CHOICES, prettyUnit, shortNumber, unitFactor } from "../../model/units";
+import { prettyUnit, shortNumber } from "../../model/units";
 import { studio, useStudio } from "../../state";
+import { SIMPLE, converted, entered, numberIn, partsOf, unitsOf } from "./entry";
 
 /** The literal at a path as written in the text, or undefined. Compared by a key, so that React sees when it changes. */
 export function useLiteral(path: readonly string[]): Plain | undefined {
@@ -26,27 +27,6 @@ export function setLiteral(path: readonly string[], value: Literal | null, label
   edit(draft.apply(), label);
 }
 
-const SIMPLE = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµ°][\w*/^°·-]*)?\s*$/;
-
-interface Parts {
-  number: string;
-  unit: string;
-  /** More than a number with a unit. */
-  expression: boolean;
-}
-
-function partsOf(literal: Plain | undefined, si: string): Parts {
-  if (literal === undefined) return { number: "", unit: "", expression: false };
-  const text = String(literal);
-  const simple = SIMPLE.exec(text);
-  if (!simple) return { number: text, unit: "", expression: true };
-  return { number: simple[1]!, unit: simple[2] ?? si, expression: false };
-}
-
-function numberIn(text: string): number | null {
-  return evaluate(text, (name) => studio.get().model.parameters.get(name));
-}
-
 interface QuantityProps {
   label: string;
   unit: string;
@@ -57,40 +37,37 @@ interface QuantityProps {
   variables?: boolean;
   required?: boolean;
   note?: React.ReactNode;
+  /** Why a value is refused; empty if it is not. */
+  refuse?: (text: string) => string;
   onChange: (literal: Literal | null) => void;
 }
 
-export function Quantity({ label, unit, literal, fallback, meaning, variables, required, note, onChange }: QuantityProps) {
+export function Quantity({ label, unit, literal, fallback, meaning, variables, required, note, refuse, onChange }: QuantityProps) {
   const id = useId();
   const parts = partsOf(literal, unit);
   const [typed, setTyped] = useState(parts.number);
   const [wrong, setWrong] = useState("");
+  const [chosen, setChosen] = useState("");
   const shown = parts.number;
   useEffect(() => {
     setTyped(shown);
     setWrong("");
   }, [shown, parts.unit]);
-  const usual = partsOf(fallback, unit);
-  const own = parts.unit || (literal === undefined && !usual.expression ? usual.unit : "");
-  const family = CHOICES[unit] ?? Object.values(CHOICES).find((list) => own !== "" && list.includes(own)) ?? (unit ? [unit] : []);
-  const choices = [...new Set([...(own ? [own] : []), ...family])];
-  const now = own || (unit ? (choices[0] ?? "") : "");
+  const { now, choices, usual } = unitsOf(literal, unit, fallback, chosen);
 
   const commit = (text: string) => {
     const value = text.trim();
-    if (value === shown.trim()) return setWrong("");
-    if (value === "") return required ? setTyped(shown) : onChange(null);
-    const simple = SIMPLE.exec(value);
-    if (simple && !simple[2]) return onChange(now ? `${simple[1]} ${now}` : Number(simple[1]));
-    if (!variables && numberIn(value) === null) return setWrong(`"${value}" is neither a number nor an expression of the model's parameters.`);
     setWrong("");
-    onChange(value);
+    if (value === shown.trim()) return;
+    if (value === "") return required ? setTyped(shown) : onChange(null);
+    const found = entered(value, { unit: now, variables, refuse });
+    if ("wrong" in found) setWrong(found.wrong);
+    else onChange(found.literal);
   };
   const convert = (to: string) => {
-    const from = unitFactor(now);
-    const factor = unitFactor(to);
-    if (literal === undefined || parts.expression || from === null || factor === null) return;
-    onChange(`${Number(((Number(parts.number) * from) / factor).toPrecision(10))} ${to}`);
+    if (literal === undefined) return setChosen(to);
+    const number = parts.expression ? null : converted(parts.number, now, to);
+    if (number !== null) onChange(`${number} ${to}`);
   };
   const value = parts.expression && !variables ? numberIn(shown) : null;
   return (
@@ -103,7 +80,7 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
         <input
           id={id}
           value={typed}
-          placeholder={fallback !== undefined ? (usual.expression ? fallback : usual.number) : required ? "required" : "–"}
+          placeholder={fallback !== undefined ? usual || fallback : required ? "required" : "–"}
           spellCheck={false}
           aria-invalid={wrong !== ""}
           aria-describedby={wrong ? `${id}-wrong` : undefined}
@@ -111,7 +88,10 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
           onBlur={(event) => commit(event.target.value)}
           onKeyDown={(event) => {
             if (event.key === "Enter") commit(event.currentTarget.value);
-            else if (event.key === "Escape") setTyped(shown);
+            else if (event.key === "Escape") {
+              setTyped(shown);
+              setWrong("");
+            }
             else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && SIMPLE.test(typed)) {
               event.preventDefault();
               const next = stepped(Number(SIMPLE.exec(typed)![1]), event.key === "ArrowUp" ? 1 : -1);
@@ -144,6 +124,21 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
 function stepped(value: number, direction: number): string {
   const power = value === 0 ? 1 : 10 ** (Math.floor(Math.log10(Math.abs(value))) - 1);
   return String(Number((value + direction * power).toPrecision(10)));
+}
+
+interface ComputedProps extends Pick<QuantityProps, "label" | "literal" | "meaning"> {
+  unit: "m" | "rad";
+  positive?: boolean;
+  onChange: (value: number) => void;
+}
+
+/** A quantity that the studio computes with: what it writes is not what was typed, so that the kernel cannot complain about that. */
+export function ComputedQuantity({ unit, positive = false, onChange, ...rest }: ComputedProps) {
+  const take = (literal: Literal | null) => {
+    const value = numberIn(String(literal ?? ""));
+    if (value !== null) onChange(value);
+  };
+  return <Quantity {...rest} unit={unit} required refuse={(text) => valueProblem(text, unit, positive, studio.get().model)} onChange={take} />;
 }
 
 /** A quantity of the model's text. */

@@ -1,16 +1,17 @@
 // The energy account: initial energy, energy supplied, energy lost, and the error of the balance.
 import type { RunAnswer } from "../../kernel/protocol";
 import { quantity, shortNumber } from "../../model/units";
-import { useStudio } from "../../state";
+import { isOutdated, useStudio } from "../../state";
 import { Nothing } from "./forces";
 
 export function EnergyPanel() {
   const answer = useStudio((now) => now.run.answer);
+  const old = useStudio((now) => now.mode === "live" || isOutdated(now.run));
   if (!answer) return <Nothing />;
   const { energy } = answer;
   const scale = Math.max(energy.kinetic_peak, Math.abs(energy.supplied), energy.dissipated, 1e-300);
   return (
-    <div className="energy">
+    <div className={old ? "energy old" : "energy"}>
       <table className="numbers">
         <caption className="visually-hidden">Energy account</caption>
         <thead>

@@ -3,18 +3,18 @@ import { select } from "../../actions";
 import type { PeakForce } from "../../kernel/protocol";
 import { quantity, shortNumber } from "../../model/units";
 import { player } from "../../play/player";
-import { useStudio } from "../../state";
+import { isOutdated, useStudio } from "../../state";
 import { type Estimate, estimateOf } from "./estimate";
 
 export function ForcesPanel() {
   const answer = useStudio((now) => now.run.answer);
   const kept = useStudio((now) => now.kept?.answer ?? null);
-  const stale = useStudio((now) => now.run.status !== "done");
+  const old = useStudio((now) => now.mode === "live" || isOutdated(now.run));
   if (!answer) return <Nothing />;
   const largest = Math.max(...answer.joints.map((one) => one.peak), 1e-300);
   const moments = answer.joints.some((one) => one.has_moment);
   return (
-    <div className={stale ? "table-wrap old" : "table-wrap"}>
+    <div className={old ? "table-wrap old" : "table-wrap"}>
       <table className="numbers">
         <caption className="visually-hidden">Peak forces of the joints, with error estimates</caption>
         <thead>

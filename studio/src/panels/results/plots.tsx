@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { prettyUnit, shortNumber } from "../../model/units";
 import { player } from "../../play/player";
-import { studio, useStudio } from "../../state";
+import { isOutdated, studio, useStudio } from "../../state";
 import { Nothing } from "./forces";
 import { Icon } from "../icons";
 import { PolarDiagram, usePin } from "./polar-diagram";
@@ -19,13 +19,14 @@ export function PlotsPanel() {
   const chosen = useMemo(() => (answer ? chosenSeries(all, plotted, answer) : []), [all, plotted, answer]);
   const other = useMemo(() => (kept ? { time: kept.answer.values[0]!, series: seriesOf(kept.answer) } : null), [kept]);
   const pin = usePin(answer);
+  const old = useStudio((now) => isOutdated(now.run));
   if (!answer || (answer.values[0]?.length ?? 0) < 2) return <Nothing />;
   const toggle = (id: string) => {
     const ids = chosen.map((one) => one.id);
     studio.set({ plotted: ids.includes(id) ? ids.filter((one) => one !== id) : [...ids, id] });
   };
   return (
-    <div className={pin ? "plots with-polar" : "plots"}>
+    <div className={`plots${pin ? " with-polar" : ""}${old ? " old" : ""}`}>
       <Plot key={theme} series={chosen} time={answer.values[0]!} kept={other} />
       {pin && <PolarDiagram answer={answer} joint={pin} kept={kept?.answer ?? null} />}
       <Legend series={chosen} kept={other?.series ?? null} onRemove={toggle} />
@@ -61,10 +62,14 @@ function Plot({ series, time, kept }: PlotProps) {
     const end = player.onFrame(() => {
       const at = plot.valToPos(studio.get().mode === "edit" ? 0 : player.t, "x");
       line.style.transform = `translateX(${at}px)`;
-      line.hidden = studio.get().mode === "live";
-      const index = plot.cursor.idx ?? (studio.get().mode === "edit" ? 0 : nearest(time, player.t));
+      const { mode } = studio.get();
+      line.hidden = mode === "live";
+      // While live, only a pointer over the plot stands for a time of the run.
+      const index = plot.cursor.idx ?? (mode === "live" ? null : mode === "edit" ? 0 : nearest(time, player.t));
       document.querySelectorAll<HTMLElement>("[data-now]").forEach((text) => {
-        const value = plot.data[lineOf.get(text.dataset["now"] ?? "") ?? -1]?.[index];
+        const id = text.dataset["now"] ?? "";
+        const live = () => series.find((one) => one.id === id)?.live?.((joint) => player.liveForce(joint));
+        const value = index === null ? live() : plot.data[lineOf.get(id) ?? -1]?.[index];
         text.textContent = typeof value === "number" ? shortNumber(value, 5) : "–";
       });
     });

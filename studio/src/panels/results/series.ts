@@ -1,5 +1,5 @@
 // What can be plotted: the run's columns, and the magnitude of each joint force, which users usually want first.
-import type { PeakForce, RunAnswer } from "../../kernel/protocol";
+import type { Column, PeakForce, RunAnswer } from "../../kernel/protocol";
 
 export interface Series {
   id: string;
@@ -8,9 +8,14 @@ export interface Series {
   group: string;
   about: string;
   values: () => Float64Array;
+  /** Its value in a live motion, from the forces on second bodies of joints. */
+  live?: (forceOf: ForceOf) => number | undefined;
   /** Time and value of its peak, which may lie between the rows. */
   peak?: { t: number; value: number };
 }
+
+/** x and y of the force on a joint's second body. */
+export type ForceOf = (joint: string) => readonly [number, number] | null;
 
 const WORDS: Record<string, string> = {
   x: "x", y: "y", angle: "angle", vx: "velocity x", vy: "velocity y", spin: "spin", fx: "force x", fy: "force y", f1: "force along x of the joint", f2: "force along y of the joint",
@@ -36,6 +41,7 @@ export function seriesOf(answer: RunAnswer): Series[] {
       group: `Joint ${joint.name}`,
       about: `Magnitude of the force in joint ${joint.name}`,
       values: () => fx.map((value, i) => Math.hypot(value, fy[i]!)),
+      live: (forceOf) => magnitude(forceOf(joint.name)),
       peak: { t: joint.peak_time, value: joint.peak },
     });
   }
@@ -50,9 +56,23 @@ export function seriesOf(answer: RunAnswer): Series[] {
       group,
       about: column.about,
       values: () => answer.values[i]!,
+      live: liveComponent(column, answer),
     });
   });
   return list;
+}
+
+const magnitude = (force: ReturnType<ForceOf>) => (force ? Math.hypot(...force) : undefined);
+
+// A live motion has the forces of joints only.
+function liveComponent({ kind, of, quantity, frame, feels }: Column, answer: RunAnswer): Series["live"] {
+  const axis = quantity === "fx" ? 0 : 1;
+  if (kind !== "joint" || frame !== "world" || (axis === 1 && quantity !== "fy")) return undefined;
+  const sign = answer.joints.some((joint) => joint.name === of && joint.second_body === feels) ? 1 : -1;
+  return (forceOf) => {
+    const force = forceOf(of);
+    return force ? sign * force[axis] : undefined;
+  };
 }
 
 /** The largest forces: plotted until the user chooses. */
