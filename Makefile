@@ -18,11 +18,12 @@ say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build build-demo demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
 .PHONY: paper figure9 published
-.PHONY: check-sources test-release test-package test-clang mutants constants
+.PHONY: check-sources test-release test-package test-clang test-all mutants constants
 
 help:
 	@echo "make demo       install missing packages, build, run the paper's four-bar, write its report"
-	@echo "make test       install missing packages, build and run every test and check"
+	@echo "make test       install missing packages, build and run every test and check; 25 minutes on two cores"
+	@echo "make test-all   also with a second compiler and under sanitizers, and the build of make demo: an hour"
 	@echo "make build      the optimised program, build/release/bin/pintle"
 	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
 	@echo "make bench      work-precision against SUNDIALS, Simbody and MuJoCo, a quarter of an hour; QUICK=1: one minute"
@@ -64,8 +65,13 @@ test:
 	@$(MAKE) --no-print-directory check-sources
 	@$(MAKE) --no-print-directory test-release
 	@$(MAKE) --no-print-directory test-package
-	@$(MAKE) --no-print-directory test-clang
 	$(call say,all tests passed)
+
+# Before a release, and after changes of memory or types: an hour.
+test-all: test
+	$(call say,the program alone as make demo builds it)
+	@$(MAKE) --no-print-directory build-demo
+	@$(MAKE) --no-print-directory test-clang
 
 check-sources:
 	$(call say,order of rooms and habits)
