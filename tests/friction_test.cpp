@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
