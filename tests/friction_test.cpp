@@ -14,7 +14,6 @@
 
 namespace pintle {
 namespace {
-
 using reference::at_end;
 using reference::completed;
 using reference::drift;

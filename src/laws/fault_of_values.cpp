@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -19,6 +20,12 @@ std::string fault_of(const KeyInfo& key, const std::vector<double>& values) {
   return {};
 }
 
+// Where a program switches a joint's law, the previous law's values may stay, as they may in files.
+bool is_of_another_law(std::string_view key) {
+  const auto laws = law_catalog();
+  return std::any_of(laws.begin(), laws.end(), [key](const LawInfo& law) { return find_key(law.keys, key) != nullptr; });
+}
+
 }  // namespace
 
 std::string fault_of_values(const LawInfo& law, const std::map<std::string, std::vector<double>>& values) {
@@ -26,6 +33,7 @@ std::string fault_of_values(const LawInfo& law, const std::map<std::string, std:
   for (const KeyInfo& key : law.keys) known.push_back(key.key);
   for (const auto& [word, numbers] : values) {
     const KeyInfo* key = find_key(law.keys, word);
+    if (key == nullptr && is_of_another_law(word)) continue;
     if (key == nullptr) {
       const auto meant = did_you_mean(word, known);
       return fmt::format("'{}' has no key '{}'{}", law.word, word, meant ? fmt::format("; did you mean '{}'?", *meant) : std::string());

@@ -9,7 +9,7 @@
 
 namespace pintle {
 
-/// A key that the law does not have or that is missing, a list where one number is due, or a number out of the key's range; empty if there is none of these.
+/// A key that no law has or that is missing, a list where one number is due, or a number out of the key's range; empty if there is none of these.
 std::string fault_of_values(const LawInfo& law, const std::map<std::string, std::vector<double>>& values);
 
 }  // namespace pintle

@@ -86,11 +86,15 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   }
 
   void project(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) {
-    rounding_ = rounding_of_gaps<S>(last.q);
-    typename S::Vec fastest = S::Vec::Constant(largest_coordinate(last.v));
+    const double fastest = largest_coordinate(last.v);
+    const auto of_rate = [h](const typename S::Vec& of_gap, const typename S::Vec& v) -> typename S::Vec { return (kLastBits * v).cwiseMax((of_gap / std::abs(h)).cwiseMin(kMostOfRates * v)); };
+    rounding_[kNear] = S::Vec::Constant(kLastBits * largest_coordinate(last.q));
+    rounding_[kTurned] = rounding_of_gaps<S>(last.q);
+    typename S::Vec turning = S::Vec::Constant(fastest);
     for (int k = S::kDim; k < S::kDof; ++k)
-      for (const typename S::Vec& v : last.v) fastest[k] = std::max(fastest[k], std::abs(v[k]));
-    rounding_of_rate_ = (kLastBits * fastest).cwiseMax((rounding_ / std::abs(h)).cwiseMin(kMostOfRates * fastest));
+      for (const typename S::Vec& v : last.v) turning[k] = std::max(turning[k], std::abs(v[k]));
+    rounding_of_rate_[kNear] = of_rate(rounding_[kNear], S::Vec::Constant(fastest));
+    rounding_of_rate_[kTurned] = of_rate(rounding_[kTurned], turning);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       {
         typename S::Vec dq;
@@ -273,7 +277,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
       const Kinematics r = read(joints, end.t, m, map, last);
       L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) {
-        left = larger_size(left, joints.forbidden[k] * (1 / rounding_[k]) * (joints.load(last.gap, k) - r.gap[k]));
+        left = larger_size(left, joints.forbidden[k] * (1 / rounding_[joints.linear][k]) * (joints.load(last.gap, k) - r.gap[k]));
         off[k] = joints.load(last.gap_rate, k) - r.rate[k];
       }
       add_to_rhs(joints, off);
@@ -321,10 +325,10 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
       joints.gather(map, accel_, accel);
       for (int k = 0; k < S::kDof; ++k) {
         const L carried = joints.load(last.gap_rate, k);
-        left = larger_size(left, joints.forbidden[k] * (1 / rounding_of_rate_[k]) * (carried - r.rate[k]));
+        left = larger_size(left, joints.forbidden[k] * (1 / rounding_of_rate_[joints.linear][k]) * (carried - r.rate[k]));
         accel[k] = joints.load(last.gap_accel, k) - r.bias[k] - accel[k];
-        gap[k] = carried_or(joints.load(last.gap, k), r.gap[k], rounding_[k]);
-        rate[k] = carried_or(carried, r.rate[k], rounding_of_rate_[k]);
+        gap[k] = carried_or(joints.load(last.gap, k), r.gap[k], rounding_[joints.linear][k]);
+        rate[k] = carried_or(carried, r.rate[k], rounding_of_rate_[joints.linear][k]);
       }
       joints.store(gap, end.gap);
       joints.store(rate, end.gap_rate);
@@ -434,7 +438,9 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   std::vector<RowOf4<S>> rest_of_four_;
   std::vector<BodyRow<S>> rest_;
   std::vector<BodyRow<S>> accel_, rhs_, force_rhs_;
-  typename S::Vec rounding_ = S::Vec::Zero(), rounding_of_rate_ = rounding_;  // of gaps and their rates, from the positions and velocities of bodies
+  // Of gaps and their rates, from the positions and velocities of bodies: of joints whose laws may have borders, which are located in the bodies' gaps; and of linear ones.
+  enum { kNear, kTurned };
+  std::array<typename S::Vec, 2> rounding_, rounding_of_rate_;
 };
 
 // The same code for registers of every width.

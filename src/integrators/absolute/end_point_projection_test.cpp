@@ -8,8 +8,10 @@
 #include <limits>
 
 #include "integrators/absolute/gap_projector.h"
+#include "integrators/load_scale.h"
 #include "integrators/radau/step_error.h"
 #include "integrators/start_states_for_tests.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 namespace {
@@ -113,19 +115,25 @@ class Plainly {
   Plainly(const LastStage& from, double mu) : q(from.stage.q), v(from.stage.v), at_(from), projector_(from.system), wanted_(from.system.joints.size()) {
     EXPECT_TRUE(projector_.prepare(at_.t, at_.stage.m, mu, at_.stage.gap, at_.stage.gap_rate));
     read();
-    const double rounding = rounding_of(q), rounding_of_rate = std::max(rounding_of(v), std::min(rounding / kStep, 1e-9 * largest_coordinate(v)));
-    for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap, &JointKinematics::gap) >= rounding); ++pass) move(at_.stage.gap, &JointKinematics::gap, q);
-    for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap_rate, &JointKinematics::rate) >= rounding_of_rate); ++pass, ++passes) move(at_.stage.gap_rate, &JointKinematics::rate, v);
+    const S::Vec rounding = rounding_of_gaps<S>(q), fastest(largest_coordinate(v), largest_coordinate(v), std::max(largest_coordinate(v), largest_spin()));
+    const S::Vec rounding_of_rate = (kLastBits * fastest).cwiseMax((rounding / kStep).cwiseMin(1e-9 * fastest));
+    for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap, &JointKinematics::gap, rounding) >= 1); ++pass) move(at_.stage.gap, &JointKinematics::gap, q);
+    for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap_rate, &JointKinematics::rate, rounding_of_rate) >= 1); ++pass, ++passes) move(at_.stage.gap_rate, &JointKinematics::rate, v);
     find_forces(rounding, rounding_of_rate);
   }
 
  private:
-  static double rounding_of(const Vecs& x) { return 16 * 2.220446049250313e-16 * largest_coordinate(x); }
-  double left(const Vecs& carried, S::Vec JointKinematics::*of) const {
+  double largest_spin() const {
+    double largest = 0;
+    for (const S::Vec& each : v) largest = std::max(largest, std::abs(each[2]));
+    return largest;
+  }
+  // Over its rounding.
+  double left(const Vecs& carried, S::Vec JointKinematics::*of, const S::Vec& rounding) const {
     double size = 0;
     for (std::size_t j = 0; j < carried.size(); ++j)
       for (int k = 0; k < 3; ++k)
-        if (at_.system.joints[j].free_mask[k] == 0) size = std::max(size, std::abs(carried[j][k] - (r_[j].*of)[k]));
+        if (at_.system.joints[j].free_mask[k] == 0) size = std::max(size, std::abs(carried[j][k] - (r_[j].*of)[k]) / rounding[k]);
     return size;
   }
   void move(const Vecs& carried, S::Vec JointKinematics::*of, Vecs& x) {
@@ -138,12 +146,12 @@ class Plainly {
     at_.system.motions(q, v, m);
     at_.system.joint_kinematics(at_.t, m, r_);
   }
-  static S::Vec carried_or(S::Vec x, const S::Vec& geometry, double rounding) {
+  static S::Vec carried_or(S::Vec x, const S::Vec& geometry, const S::Vec& rounding) {
     for (int k = 0; k < 3; ++k)
-      if (std::abs(geometry[k] - x[k]) > rounding) x[k] = geometry[k];
+      if (std::abs(geometry[k] - x[k]) > rounding[k]) x[k] = geometry[k];
     return x;
   }
-  void find_forces(double rounding, double rounding_of_rate) {
+  void find_forces(const S::Vec& rounding, const S::Vec& rounding_of_rate) {
     Vecs a = at_.stage.a;
     for (std::size_t j = 0; j < wanted_.size(); ++j) {
       const JointData& joint = at_.system.joints[j];

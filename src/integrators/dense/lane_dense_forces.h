@@ -322,9 +322,9 @@ class LaneForces : public BasicDenseForces<S> {
     find_misfits();
     remove_closable_part(&Joint::off);
     remove_closable_part(&Joint::rate_off);
-    const typename S::Vec rounding = rounding_of_gaps<S>(end.q);
+    const typename S::Vec turned = rounding_of_gaps<S>(end.q), near = S::Vec::Constant(kLastBits * largest_coordinate(end.q));
     for (std::size_t j = 0; j < joints_.size(); ++j)
-      if (joints_[j].pose) add_force_of_geometry(j, rounding);
+      if (joints_[j].pose) add_force_of_geometry(j, joints_[j].linear ? turned : near);
     bodies_ = on_curves_;
   }
 

@@ -206,10 +206,12 @@ void TreeRadau::move_onto_gaps() {
 // Keeps the carried gap, but takes that of the geometry if no motion can reach it (redundant joints). theory/time Eq. (4.3).
 void TreeRadau::take_gaps() {
   const S::Vec rounding = rounding_of_gaps<S>(end_at_.pose().q);
+  const double near = kLastBits * largest_coordinate(end_at_.pose().q);
+  const auto is_linear = [this](Index law) { return system_.joints[tree_->laws()[static_cast<std::size_t>(law)]].law.as_linear() != nullptr; };
   VectorXd now;
   end_at_.gaps(now, &end_);
   for (Index i = 0; i < now.size(); ++i)
-    if (std::abs(now[i] - end_.gap[i]) > rounding[i % S::kDof]) end_.gap[i] = now[i];
+    if (std::abs(now[i] - end_.gap[i]) > (is_linear(i / S::kDof) ? rounding[i % S::kDof] : near)) end_.gap[i] = now[i];
   end_at_.rates(end_.rate);
   end_at_.forces(end_, end_.force, end_.law_rate);
 }
