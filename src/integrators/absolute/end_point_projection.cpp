@@ -271,13 +271,14 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   double assemble_rates_and_measure_gaps(const BasicStage<S>& last, const BasicState<S>& end, const std::vector<typename S::Motion>& m) {
     clear(rhs_);
     L left = L::all(0);
+    const auto over_rounding = inverses(rounding_);
     for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_kinematics(joints, last);
       typename S::template GapMap<L> map;
       const Kinematics r = read(joints, end.t, m, map, last);
       L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) {
-        left = larger_size(left, joints.forbidden[k] * (1 / rounding_[joints.linear][k]) * (joints.load(last.gap, k) - r.gap[k]));
+        left = larger_size(left, joints.forbidden[k] * over_rounding[joints.linear][k] * (joints.load(last.gap, k) - r.gap[k]));
         off[k] = joints.load(last.gap_rate, k) - r.rate[k];
       }
       add_to_rhs(joints, off);
@@ -317,6 +318,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     clear(rhs_);
     clear(force_rhs_);
     L left = L::all(0);
+    const auto over_rounding = inverses(rounding_of_rate_);
     for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_forces(joints, last, end);
       typename S::template GapMap<L> map;
@@ -325,7 +327,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
       joints.gather(map, accel_, accel);
       for (int k = 0; k < S::kDof; ++k) {
         const L carried = joints.load(last.gap_rate, k);
-        left = larger_size(left, joints.forbidden[k] * (1 / rounding_of_rate_[joints.linear][k]) * (carried - r.rate[k]));
+        left = larger_size(left, joints.forbidden[k] * over_rounding[joints.linear][k] * (carried - r.rate[k]));
         accel[k] = joints.load(last.gap_accel, k) - r.bias[k] - accel[k];
         gap[k] = carried_or(joints.load(last.gap, k), r.gap[k], rounding_[joints.linear][k]);
         rate[k] = carried_or(carried, r.rate[k], rounding_of_rate_[joints.linear][k]);
@@ -438,9 +440,11 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   std::vector<RowOf4<S>> rest_of_four_;
   std::vector<BodyRow<S>> rest_;
   std::vector<BodyRow<S>> accel_, rhs_, force_rhs_;
-  // Of gaps and their rates, from the positions and velocities of bodies: of joints whose laws may have borders, which are located in the bodies' gaps; and of linear ones.
+  using OfLaws = std::array<typename S::Vec, 2>;
+  static OfLaws inverses(const OfLaws& x) { return {x[kNear].cwiseInverse(), x[kTurned].cwiseInverse()}; }
+  // Rounding of gaps and their rates, from the positions and velocities of bodies: of joints whose laws may have borders, which are located in the bodies' gaps; and of linear ones.
   enum { kNear, kTurned };
-  std::array<typename S::Vec, 2> rounding_, rounding_of_rate_;
+  OfLaws rounding_, rounding_of_rate_;
 };
 
 // The same code for registers of every width.
