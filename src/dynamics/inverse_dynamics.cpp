@@ -60,6 +60,10 @@ double lowest_own_frequency(const BasicSystem<S>& system, const BasicJointData<S
   if (joint.at.a != kGround) own += r.GA() * system.bodies[joint.at.a].mass.cwiseInverse().asDiagonal() * r.GA().transpose();
   if (joint.at.b != kGround) own += r.GB() * system.bodies[joint.at.b].mass.cwiseInverse().asDiagonal() * r.GB().transpose();
   own = root * own * root;
+  if (std::count_if(k.begin(), k.end(), [](double stiffness) { return stiffness > 0; }) == 2 && k[0] > 0 && k[1] > 0) {  // a pin: in closed form
+    const double larger = 0.5 * (own(0, 0) + own(1, 1)) + std::hypot(0.5 * (own(0, 0) - own(1, 1)), own(0, 1)), product = own(0, 0) * own(1, 1) - own(0, 1) * own(0, 1);
+    if (product > kLastBits * larger * larger) return std::sqrt(product / larger);
+  }
   const Eigen::SelfAdjointEigenSolver<typename S::Mat> modes(own, Eigen::EigenvaluesOnly);
   double lowest = std::numeric_limits<double>::infinity();
   for (const double square : modes.eigenvalues())
