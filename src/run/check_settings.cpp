@@ -16,7 +16,6 @@ void demand(bool good, const std::string& complaint) {
 }  // namespace
 
 void check_settings(const SimulateSettings& settings) {
-  constexpr double kMostRows = 1e7;  // of results, as for files
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   demand(positive(settings.duration), fmt::format("duration is {} s: set a time above 0", settings.duration));
   demand(positive(settings.tolerance), fmt::format("tolerance is {}: set a number above 0, such as 1e-5", settings.tolerance));

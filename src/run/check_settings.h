@@ -5,6 +5,8 @@
 
 namespace pintle {
 
+inline constexpr double kMostRows = 1e7;  // of results: of 20 columns, 1.6 GB
+
 /// Throws std::invalid_argument where a setting is out of range.
 void check_settings(const SimulateSettings& settings);
 

@@ -75,14 +75,14 @@ void BasicEnergyWatch<S>::start(const BasicState<S>& state) {
     elastic += body.gravity.template head<S::kDim>().dot(S::position(state.q[i]));
     storable_ += body.gravity.template head<S::kDim>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
   }
-  storable_ += std::abs(elastic) + work_scale_of_loads(state, size);
+  storable_ += std::abs(elastic) + work_of_loads_over(state, size);
   deflection_ = {system_, state};
   flow_ = flow(state);
 }
 
 // The work of the loads at the start over the mechanism's size, or a radian.
 template <class S>
-double BasicEnergyWatch<S>::work_scale_of_loads(const BasicState<S>& state, double size) {
+double BasicEnergyWatch<S>::work_of_loads_over(const BasicState<S>& state, double size) {
   VecsOf<S> loads(system_.bodies.size());
   system_.motions(state.q, state.v, m_);
   system_.external(state.t, m_, loads, state.sliding);
@@ -129,14 +129,14 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
       return Alarm::kOpen;
     }
   if (++since_judged_ >= kJudgedEvery)
-    if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
-  if (const Alarm alarm = judge_growth(state); alarm != Alarm::kNone) return alarm;
-  return judge_torn_joints(state);
+    if (const Alarm alarm = check_account(state); alarm != Alarm::kNone) return alarm;
+  if (const Alarm alarm = check_growth(state); alarm != Alarm::kNone) return alarm;
+  return check_torn_joints(state);
 }
 
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) {
-  if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
+  if (const Alarm alarm = check_account(state); alarm != Alarm::kNone) return alarm;
   if (!exact_work_ || state.dissipated > -kGiven * turnover()) return Alarm::kNone;
   message_ = fmt::format("joints and dampers have delivered {:.3g} J, but can only dissipate: likely a negative damping, or friction whose slip jumped within a step, as at a corner of an edge", -state.dissipated);
   return Alarm::kOpen;
@@ -149,7 +149,7 @@ double BasicEnergyWatch<S>::turnover() const {
 
 // Eq. (8.2).
 template <class S>
-typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const BasicState<S>& state) {
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_account(const BasicState<S>& state) {
   since_judged_ = 0;
   const double stored = potential(state), kinetic = system_.kinetic(state.v);
   swing_ = std::max(swing_, std::abs(stored - potential_));
@@ -161,12 +161,12 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const Bas
     missing_ = missing;
     return Alarm::kNone;
   }
-  say_open(state, missing, within);
+  describe_open_account(state, missing, within);
   return Alarm::kOpen;
 }
 
 template <class S>
-void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, double within) {
+void BasicEnergyWatch<S>::describe_open_account(const BasicState<S>& state, double missing, double within) {
   const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.ideal; });
   const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;
@@ -182,7 +182,7 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
 // Eq. (8.4). Only supplied energy counts: the mechanism already had what falling weights or springs give. What dampers give counts too, what they take does not: a
 // joint that is torn open takes most of it.
 template <class S>
-typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const BasicState<S>& state) {
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_growth(const BasicState<S>& state) {
   const double energy = state.supplied + std::max(0.0, -state.dissipated);
   bool more = false;
   while (reached_ < kDecades && energy > storable_ * std::pow(10.0, reached_)) {
@@ -194,7 +194,7 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const Basi
   const double before = decade_[reached_ - 1 - kCompared] - decade_[reached_ - 1 - 2 * kCompared];
   if (!(before > 0) || last > kSteady * before) return Alarm::kNone;  // powers of ten reached within one step show no growth rate
   const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
-  say_runaway(state, energy, fmt::format(", growing tenfold every {:.2g} s", span / (2 * kCompared)));
+  describe_runaway(state, energy, fmt::format(", growing tenfold every {:.2g} s", span / (2 * kCompared)));
   return Alarm::kRunaway;
 }
 
@@ -233,20 +233,20 @@ std::string BasicEnergyWatch<S>::note_on_feeder() const {
 
 // A motion that is fed by what depends on it, until a joint gives way, need not go on growing.
 template <class S>
-typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_torn_joints(const BasicState<S>& state) {
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_torn_joints(const BasicState<S>& state) {
   if (!(std::max(state.supplied, -state.dissipated) > kFarFed * storable_)) return Alarm::kNone;
   const Feeder* most = largest_feeder();
   if (most == nullptr || !most->listens || !(most->work > kFarFed * storable_)) return Alarm::kNone;
   for (std::size_t j = 0; j < system_.joints.size(); ++j)
     if (const double torn = deflection_.of(j, state.force[j].template head<S::kDim>().norm()); torn > kTornOpen) {
-      say_runaway(state, state.supplied, fmt::format(", when joint {} was torn open by {:.2g} m", system_.joints[j].name, torn * deflection_.size()));
+      describe_runaway(state, state.supplied, fmt::format(", when joint {} was torn open by {:.2g} m", system_.joints[j].name, torn * deflection_.size()));
       return Alarm::kRunaway;
     }
   return Alarm::kNone;
 }
 
 template <class S>
-void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy, const std::string& how) {
+void BasicEnergyWatch<S>::describe_runaway(const BasicState<S>& state, double energy, const std::string& how) {
   message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s{}", decade_[0], storable_, energy, state.t, how);
   if (const Feeder* most = largest_feeder()) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
 }

@@ -41,15 +41,15 @@ class BasicEnergyWatch {
     bool listens;     // depends on the motion, not on time alone, so that a sign may be wrong
     double work = 0;  // [J]
   };
-  Alarm judge_account(const BasicState<S>& state);
-  Alarm judge_growth(const BasicState<S>& state);
-  Alarm judge_torn_joints(const BasicState<S>& state);
+  Alarm check_account(const BasicState<S>& state);
+  Alarm check_growth(const BasicState<S>& state);
+  Alarm check_torn_joints(const BasicState<S>& state);
   void add_works(const BasicState<S>& state, double h);
   double potential(const BasicState<S>& state);
-  double work_scale_of_loads(const BasicState<S>& state, double size);
+  double work_of_loads_over(const BasicState<S>& state, double size);
   double flow(const BasicState<S>& state);
-  void say_open(const BasicState<S>& state, double missing, double within);
-  void say_runaway(const BasicState<S>& state, double energy, const std::string& how);
+  void describe_open_account(const BasicState<S>& state, double missing, double within);
+  void describe_runaway(const BasicState<S>& state, double energy, const std::string& how);
   const Feeder* largest_feeder() const;
 
   static constexpr int kDecades = 64;  // number of powers of ten of the storable energy whose times are kept

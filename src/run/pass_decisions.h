@@ -32,7 +32,6 @@ constexpr double kFalls = 0.1;             // fraction of the error of earlier p
 constexpr double kFarBelow = 1e-18;        // if growing errors would require a tolerance below this, the attainable ones are not tried
 constexpr double kSudden = 0.1;            // fraction of the previous error times the ratio of the two tolerances: passes with a smaller error may agree by chance
 constexpr double kLeap = 1e-4;             // lower limit on the next tolerance, as a fraction of the last, unless two pairs have shown the same exponential growth
-constexpr double kFallsAs = 0.5;          // power of the tolerance: errors that fall at least like it converge, as do those of a bar that is spun up, which fall to a fifth with a tenth of the tolerance
 constexpr double kShift = 0.2;             // fraction of the time in which errors grow by the ratio of two tolerances: the tighter passes must part at least this much later. Those of a pendulum that falls from its upper position part 0.04 of it later, as errors grow only while it falls
 constexpr int kMostOpen = 2;               // upper limit on the passes repeated because the energy account did not close
 

@@ -282,7 +282,7 @@ class Passes {
 
   static bool is_steady(const ErrorGrowth& growth) { return growth.rate_scatter < kMostScatter * growth.rate; }
   // False for a chaotic motion: its errors are as large as they can be, whatever the tolerance.
-  bool errors_fall() const { return error_ < std::max(kFalls, std::pow(coarse_tolerance_ / coarse_at_last_growth_, kFallsAs)) * error_at_last_growth_; }
+  bool errors_fall() const { return error_ < kFalls * error_at_last_growth_; }
 
   // Whether a motion that shows the same growth twice is chaotic without trying the tightest tolerances. Errors may also grow for a limited time only.
   bool is_sure() const {

@@ -103,9 +103,9 @@ IdealEquations::IdealEquations(const System& system, Equations equations, const 
   matrix_.setFromTriplets(pattern.begin(), pattern.end());
   if (n > 0) factors_.analyzePattern(matrix_);
   jacobian_.resize(2 * rows_.size());
-  scaled_jacobian_.resize(2 * rows_.size());
+  orthonormal_.resize(2 * rows_.size());
   for (int i = 0; i < n; ++i) {
-    if (i == 0 || rows_[i].joint != rows_[i - 1].joint) joint_rows_.push_back({i, 0, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()});
+    if (i == 0 || rows_[i].joint != rows_[i - 1].joint) joint_rows_.push_back({i, 0, Eigen::Matrix3d::Identity()});
     ++joint_rows_.back().n;
   }
 }
@@ -121,50 +121,47 @@ void IdealEquations::read(double t, const Vecs& q, const Vecs& v) {
   }
 }
 
-// Rows are scaled so that the matrix of each joint alone is the unit matrix: what is left between them comes from loops. Scaled one by one, the two rows of
+// Rows are made orthonormal within each joint, in the norm of the masses: what is left between them comes from loops. Scaled one by one, the two rows of
 // a pin that holds a small heavy body on a long arm would be nearly dependent wherever the arm lies between their axes. theory/ideal Eq. (1.6).
-void IdealEquations::scale_rows() {
+void IdealEquations::orthonormalize_rows() {
   for (JointRows& joint : joint_rows_) {
     const Placement& at = system_.joints[rows_[joint.first].joint].at;
-    Eigen::Matrix3d alone = Eigen::Matrix3d::Identity();
-    for (int i = 0; i < joint.n; ++i)
-      for (int k = 0; k < joint.n; ++k) {
-        alone(i, k) = 0;
-        for (const auto& [body, side] : {std::pair(at.a, 0), std::pair(at.b, 1)})
-          if (body != kGround) alone(i, k) += jacobian(joint.first + i, side).cwiseQuotient(system_.bodies[body].mass.transpose()).dot(jacobian(joint.first + k, side));
+    const auto product = [&](const Eigen::RowVector3d* x, const Eigen::RowVector3d* y) {
+      double sum = 0;
+      if (at.a != kGround) sum += x[0].cwiseQuotient(system_.bodies[at.a].mass.transpose()).dot(y[0]);
+      if (at.b != kGround) sum += x[1].cwiseQuotient(system_.bodies[at.b].mass.transpose()).dot(y[1]);
+      return sum;
+    };
+    joint.lower.setZero();
+    for (int i = 0; i < joint.n; ++i) {
+      Eigen::RowVector3d* row = &orthonormal_[2 * (joint.first + i)];
+      std::copy_n(&jacobian_[2 * (joint.first + i)], 2, row);
+      const double whole = product(row, row);
+      for (int k = 0; k < i && !has_penalties(); ++k) {
+        const Eigen::RowVector3d* before = &orthonormal_[2 * (joint.first + k)];
+        joint.lower(i, k) = product(row, before);
+        for (int side = 0; side < 2; ++side) row[side] -= joint.lower(i, k) * before[side];
       }
-    const Eigen::Vector3d roots = alone.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt();
-    joint.scale = roots.cwiseInverse().asDiagonal();
-    joint.inverse = roots.asDiagonal();
-    if (!has_penalties()) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(joint.scale * alone * joint.scale);
-      const Eigen::Vector3d sizes = modes.eigenvalues().cwiseMax(kLastBits).cwiseSqrt();
-      joint.scale = modes.eigenvectors() * sizes.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * joint.scale;
-      joint.inverse *= modes.eigenvectors() * sizes.asDiagonal() * modes.eigenvectors().transpose();
+      joint.lower(i, i) = std::sqrt(std::max({product(row, row), kLastBits * whole, std::numeric_limits<double>::min()}));
+      for (int side = 0; side < 2; ++side) row[side] /= joint.lower(i, i);
     }
-    for (int i = 0; i < joint.n; ++i)
-      for (int side = 0; side < 2; ++side) {
-        Eigen::RowVector3d& row = scaled_jacobian_[2 * (joint.first + i) + side];
-        row.setZero();
-        for (int k = 0; k < joint.n; ++k) row += joint.scale(i, k) * jacobian(joint.first + k, side);
-      }
   }
 }
 
 bool IdealEquations::factorize() {
   if (rows_.empty()) return true;
-  scale_rows();
+  orthonormalize_rows();
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   for (const Product& p : products_)
-    values[p.entry] += scaled_jacobian_[2 * p.row + p.side].cwiseQuotient(system_.bodies[p.body].mass.transpose()).dot(scaled_jacobian_[2 * p.other + p.other_side]);
+    values[p.entry] += orthonormal_[2 * p.row + p.side].cwiseQuotient(system_.bodies[p.body].mass.transpose()).dot(orthonormal_[2 * p.other + p.other_side]);
   return has_penalties() ? factorize_with_penalties() : n_redundant_ == 0 ? factorize_sparse() : find_modes();
 }
 
 // theory/penalty Eq. (1.4).
 bool IdealEquations::factorize_with_penalties() {
   Eigen::VectorXd scale(matrix_.rows());
-  for (const JointRows& joint : joint_rows_) scale.segment(joint.first, joint.n) = joint.scale.diagonal().head(joint.n);
+  for (const JointRows& joint : joint_rows_) scale.segment(joint.first, joint.n) = joint.lower.diagonal().head(joint.n).cwiseInverse();
   if (first_scale_.size() == 0) first_scale_ = scale;
   for (int e = 0; e < matrix_.nonZeros(); ++e)
     if (const int row = row_of_entry_[e]; row == column_of_entry_[e]) matrix_.valuePtr()[e] += scale[row] * scale[row] / penalty(row);
@@ -190,28 +187,42 @@ bool IdealEquations::find_modes() {
   return true;
 }
 
-template <class Matrix>
-Eigen::VectorXd IdealEquations::by_joints(const Eigen::VectorXd& x, Matrix matrix) const {
-  Eigen::VectorXd out(x.size());
-  for (const JointRows& joint : joint_rows_) out.segment(joint.first, joint.n) = matrix(joint).topLeftCorner(joint.n, joint.n) * x.segment(joint.first, joint.n);
-  return out;
+// With L of each joint: L^-1 x, for what rows should have.
+Eigen::VectorXd IdealEquations::to_orthonormal(Eigen::VectorXd x) const {
+  for (const auto& [first, n, lower] : joint_rows_)
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < i; ++k) x[first + i] -= lower(i, k) * x[first + k];
+      x[first + i] /= lower(i, i);
+    }
+  return x;
 }
-Eigen::VectorXd IdealEquations::scaled(const Eigen::VectorXd& of_rows) const {
-  return by_joints(of_rows, [](const JointRows& joint) { return joint.scale; });
+// L'^-1 y, for multipliers.
+Eigen::VectorXd IdealEquations::multipliers_of(Eigen::VectorXd y) const {
+  for (const auto& [first, n, lower] : joint_rows_)
+    for (int i = n - 1; i >= 0; --i) {
+      for (int k = i + 1; k < n; ++k) y[first + i] -= lower(k, i) * y[first + k];
+      y[first + i] /= lower(i, i);
+    }
+  return y;
 }
-Eigen::VectorXd IdealEquations::scaled_back(const Eigen::VectorXd& multipliers) const {
-  return by_joints(multipliers, [](const JointRows& joint) -> Eigen::Matrix3d { return joint.scale.transpose(); });
+// L y, the inverse of `to_orthonormal`.
+Eigen::VectorXd IdealEquations::from_orthonormal(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(y.size());
+  for (const auto& [first, n, lower] : joint_rows_)
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k <= i; ++k) x[first + i] += lower(i, k) * y[first + k];
+  return x;
 }
 
 void IdealEquations::solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const {
   if (n_redundant_ == 0) {
-    multipliers = scaled_back(factors_.solve(scaled(wanted)));
+    multipliers = multipliers_of(factors_.solve(to_orthonormal(wanted)));
     return;
   }
   const Eigen::Index kept = wanted.size() - n_redundant_;
   const auto V = modes_.eigenvectors().rightCols(kept);
   const Eigen::VectorXd values = modes_.eigenvalues().tail(kept).cwiseMax(damped_);
-  multipliers = scaled_back(V * (V.transpose() * scaled(wanted)).cwiseQuotient(values));
+  multipliers = multipliers_of(V * (V.transpose() * to_orthonormal(wanted)).cwiseQuotient(values));
 }
 
 Eigen::VectorXd IdealEquations::rates(const Vecs& x) const {
@@ -373,7 +384,7 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
     if (!factorize()) return false;
     if (n_redundant_ > 0) {  // only what can be closed
       const auto V = modes_.eigenvectors().rightCols(missing.size() - n_redundant_);
-      largest = by_joints(V * (V.transpose() * scaled(missing)), [](const JointRows& joint) { return joint.inverse; }).cwiseAbs().maxCoeff();
+      largest = from_orthonormal(V * (V.transpose() * to_orthonormal(missing))).cwiseAbs().maxCoeff();
     }
     if (largest <= kLastBits * size_) return true;
     if (!(largest < before)) return largest <= std::max(1e3 * kLastBits * size_, kLastBits * largest_number(q));  // roundoff, or the loops cannot be closed
@@ -437,11 +448,16 @@ double IdealEquations::independence(double t, const Vecs& q) {
 }
 
 Eigen::VectorXd IdealEquations::nearest_dependency() const {
-  if (n_redundant_ > 0) return modes_.eigenvectors().col(n_redundant_);
   Eigen::VectorXd x(matrix_.rows());
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1 + 0.1 * std::sin(static_cast<double>(7 * i + 1));
-  for (int i = 0; i < 4; ++i) x = factors_.solve(x).normalized().eval();
-  return x;
+  if (n_redundant_ > 0) x = modes_.eigenvectors().col(n_redundant_);
+  else {
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1 + 0.1 * std::sin(static_cast<double>(7 * i + 1));
+    for (int i = 0; i < 4; ++i) x = factors_.solve(x).normalized().eval();
+  }
+  x = multipliers_of(x);
+  for (const auto& [first, n, lower] : joint_rows_)
+    for (int i = 0; i < n; ++i) x[first + i] *= lower.row(i).norm();  // of rows of unit length
+  return x.normalized();
 }
 
 }  // namespace pintle

@@ -86,18 +86,17 @@ class IdealEquations {
   void read(double t, const Vecs& q, const Vecs& v);
   struct JointRows {
     int first, n;
-    Eigen::Matrix3d scale, inverse;  // of n rows and columns
+    Eigen::Matrix3d lower;  // of n rows: L with L L' = G M^-1 G' of the joint alone
   };
-  void scale_rows();
+  void orthonormalize_rows();
   bool factorize();
   bool has_penalties() const { return equations_ != Equations::kIdeal; }
   bool factorize_sparse();
   bool factorize_with_penalties();
   bool find_modes();
-  template <class Matrix>
-  Eigen::VectorXd by_joints(const Eigen::VectorXd& x, Matrix matrix) const;  // the product of a matrix of each joint with its part of x
-  Eigen::VectorXd scaled(const Eigen::VectorXd& of_rows) const;
-  Eigen::VectorXd scaled_back(const Eigen::VectorXd& multipliers) const;
+  Eigen::VectorXd to_orthonormal(Eigen::VectorXd x) const;
+  Eigen::VectorXd from_orthonormal(const Eigen::VectorXd& y) const;
+  Eigen::VectorXd multipliers_of(Eigen::VectorXd y) const;
   void solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const;
   Eigen::VectorXd rates(const Vecs& x) const;                        // G x
   void push(const Eigen::VectorXd& multipliers, Vecs& x) const;      // x += M^-1 G' multipliers
@@ -121,10 +120,10 @@ class IdealEquations {
     int entry, row, other, side, other_side, body;
   };
   std::vector<Product> products_;
-  Eigen::SparseMatrix<double> matrix_;  // lower half, of scaled rows
+  Eigen::SparseMatrix<double> matrix_;  // lower half, of orthonormal rows
   std::vector<int> row_of_entry_, column_of_entry_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
-  std::vector<Eigen::RowVector3d> jacobian_, scaled_jacobian_;
+  std::vector<Eigen::RowVector3d> jacobian_, orthonormal_;
   std::vector<JointRows> joint_rows_;
   Eigen::VectorXd first_scale_;  // with penalties: roots of the masses that resist the rows at the first position
   std::array<double, 2> violation_{};

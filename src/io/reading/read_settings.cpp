@@ -13,12 +13,12 @@
 #include "base/units.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
+#include "run/check_settings.h"
 
 namespace pintle {
 namespace {
 
 constexpr int kNewestFormat = 1;
-constexpr double kMostRows = 1e7;
 
 void check_times(ModelReading& reading, const Record& record) {
   const SimulateSettings& simulate = reading.model.simulate;

@@ -69,7 +69,7 @@ class RecordReader {
   bool is_in_hertz(std::string_view text) const;
   /// Why the text cannot stand for a quantity of this dimension, if that is a rotational speed and the text a frequency: the user means turns per second, the unit
   /// system 1/s, where a radian is 1.
-  std::optional<std::string> hertz_problem(std::string_view text, const Dimension& wanted) const;
+  std::optional<std::string> angular_speed_in_hertz_error(std::string_view text, const Dimension& wanted) const;
   std::optional<Marker> read_marker(const Entry& entry, const std::string& path);
   /// Whether the node is a table. Complains if not.
   bool is_table(const Node& node, const std::string& path);

@@ -89,7 +89,7 @@ bool RecordReader::is_in_hertz(std::string_view text) const {
   return (mentions(text, {"Hz", "kHz"}) || mentions(text, in_hertz)) && !mentions(text, {"pi", "rad", "deg", "rev", "turn"});
 }
 
-std::optional<std::string> RecordReader::hertz_problem(std::string_view text, const Dimension& wanted) const {
+std::optional<std::string> RecordReader::angular_speed_in_hertz_error(std::string_view text, const Dimension& wanted) const {
   if (wanted != kAngularSpeed || !is_in_hertz(text)) return std::nullopt;
   return "a rotational speed is expected here; a frequency is not turns per second, but 1/s";
 }
@@ -151,7 +151,7 @@ std::optional<double> RecordReader::read_number(const Node& node, const KeySpec&
 
 std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& spec, const std::string& path) {
   if (const std::string* text = node.string(); text != nullptr && !is_function_of_time(node, spec))
-    if (auto problem = hertz_problem(*text, spec.dimension)) {
+    if (auto problem = angular_speed_in_hertz_error(*text, spec.dimension)) {
       complaints_.add(node.spot, path, describe(node), std::move(*problem), kSpeedExample);
       return std::nullopt;
     }

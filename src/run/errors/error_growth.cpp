@@ -12,8 +12,6 @@ constexpr double kFitted = 1e-6;                   // smallest difference that i
 constexpr int kMostBlocks = 32, kLeastBlocks = 8;  // blocks of rows, whose largest differences are fitted; with fewer nothing is fitted
 constexpr double kLeastGain = 4.6;                 // least rise of the logarithm over the fit: a factor of a hundred
 constexpr double kLeastBend = -0.28;               // ratio of the second to the first Legendre coefficient: 0 for an exponential, -0.56 for any power of time
-constexpr double kMostPower = 4;                   // power of time: phase errors grow with the first or second power, those of forces with little more, unless a motor accelerates the motion
-constexpr double kClearly = 2;                     // ratio of the squares of residuals from which a higher power fits better beyond doubt: the errors of a bar that is spun up have 85
 constexpr double kSure = 5;                        // standard errors by which a rate must be above zero
 constexpr double kSureOfPlaces = 3;                // the same for positions, whose errors grow in stairs where pins graze their bush. Doubled, that model has a horizon at no tolerance; halved, nothing changes
 constexpr double kSurePair = 3;                    // standard errors by which two rates may differ
@@ -140,7 +138,7 @@ ErrorGrowth fit_growth_to(double most, double sure, const DifferenceCurve& curve
   growth.until = b.t[b.n - 1];
   growth.level = std::exp(line.mean_y + line.slope * (growth.until - line.mean_x));
   const double gain = line.slope * (b.t[b.n - 1] - b.t[0]);
-  growth.exponential = gain > kLeastGain && line.slope > sure * line.error && (line.squares < power.squares || (power.slope > kMostPower && line.squares < kClearly * power.squares)) && bend(b) > kLeastBend;
+  growth.exponential = gain > kLeastGain && line.slope > sure * line.error && line.squares < power.squares && bend(b) > kLeastBend;
   return growth;
 }
 

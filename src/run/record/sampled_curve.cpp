@@ -15,7 +15,7 @@ constexpr int kRefinements = 3;  // of a peak between the points of the grid; ea
 constexpr double kFiner = 0.25;  // ratio of the interval of a refinement to the previous one
 
 // Weights of Romberg's rule on equal intervals, at the points of the grid. theory/time Eq. (5.3)
-constexpr CurveGrid::AtPoints romberg(int intervals) {
+constexpr CurveGrid::AtPoints romberg_weights(int intervals) {
   std::array<CurveGrid::AtPoints, 5> rule{};  // the trapezoidal rule on 1, 2, 4, ... intervals, then extrapolated
   std::size_t levels = 0;
   for (int n = 1; n <= intervals; n *= 2, ++levels)
@@ -26,7 +26,7 @@ constexpr CurveGrid::AtPoints romberg(int intervals) {
       for (std::size_t p = 0; p < rule[j].size(); ++p) rule[j][p] += (rule[j][p] - rule[j - 1][p]) / (power - 1);
   return rule[levels - 1];
 }
-constexpr CurveGrid::AtPoints kAll = romberg(CurveGrid::kIntervals), kHalf = romberg(CurveGrid::kIntervals / 2), kQuarter = romberg(CurveGrid::kIntervals / 4);
+constexpr CurveGrid::AtPoints kAll = romberg_weights(CurveGrid::kIntervals), kHalf = romberg_weights(CurveGrid::kIntervals / 2), kQuarter = romberg_weights(CurveGrid::kIntervals / 4);
 constexpr double kSame = 1e-9;  // two rules agree if they differ by less, as a fraction of the integral. Halved or doubled, the mean force and the bearing load of swinging_roller_bearing change by 1e-10
 
 double sum_of(const CurveGrid::AtPoints& weight, const CurveGrid::AtPoints& value) {
@@ -36,12 +36,12 @@ double sum_of(const CurveGrid::AtPoints& weight, const CurveGrid::AtPoints& valu
 }
 
 // Down to intervals as short as the rounding of their ends.
-double halved_integral(const std::function<double(double)>& at, double from, double to, double allowed) {
+double adaptive_romberg(const std::function<double(double)>& at, double from, double to, double allowed) {
   CurveGrid::AtPoints value;
   for (std::size_t p = 0; p < value.size(); ++p) value[p] = at(from + (to - from) * static_cast<double>(p) / CurveGrid::kIntervals);
   const double whole = (to - from) * sum_of(kAll, value), middle = 0.5 * (from + to);
   if (to - from < kLastBits || !(std::abs(whole - (to - from) * sum_of(kHalf, value)) > allowed)) return whole;
-  return halved_integral(at, from, middle, allowed) + halved_integral(at, middle, to, allowed);
+  return adaptive_romberg(at, from, middle, allowed) + adaptive_romberg(at, middle, to, allowed);
 }
 
 // Through three equidistant squares; x is measured from the middle one in units of their distance. theory/time Eq. (5.4)
@@ -127,8 +127,8 @@ RombergOnGrid::RombergOnGrid(const CurveGrid::AtPoints& value, double total, boo
     : integral(sum_of(every_second ? kHalf : kAll, value)), allowed(kSame * std::max(std::abs(integral), total)),
       agrees(!(std::abs(integral - sum_of(every_second ? kQuarter : kHalf, value)) > allowed)) {}
 
-double integral_by_halving(const std::function<double(double)>& at, double allowed) {
-  return halved_integral(at, 0, 0.5, allowed) + halved_integral(at, 0.5, 1, allowed);
+double adaptive_romberg_integral(const std::function<double(double)>& at, double allowed) {
+  return adaptive_romberg(at, 0, 0.5, allowed) + adaptive_romberg(at, 0.5, 1, allowed);
 }
 
 double largest_on_grid(const CurveGrid::AtPoints& value) {

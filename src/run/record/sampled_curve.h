@@ -74,13 +74,13 @@ struct RombergOnGrid {
   RombergOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second);
 };
 /// The integral of a function of the fraction of the step, halved until the rules agree.
-double integral_by_halving(const std::function<double(double)>& at, double allowed);
+double adaptive_romberg_integral(const std::function<double(double)>& at, double allowed);
 
 /// Integral over the step of the function `at` of the fraction of the step, with these values at the points. The step is divided only near the kinks of a magnitude.
 template <class At>
 double integral_over_step(const CurveGrid::AtPoints& value, double total, const At& at, bool every_second = false) {
-  const RombergOnGrid romberg(value, total, every_second);
-  return romberg.agrees ? romberg.integral : integral_by_halving(std::cref(at), romberg.allowed);
+  const RombergOnGrid on_grid(value, total, every_second);
+  return on_grid.agrees ? on_grid.integral : adaptive_romberg_integral(std::cref(at), on_grid.allowed);
 }
 
 enum class Sums { kOfSize, kWithSign };
