@@ -23,7 +23,7 @@ say        = @printf '\n=== %s\n' "$(1)"
 help:
 	@echo "make demo       install missing packages, build, run the paper's four-bar, write its report"
 	@echo "make test       install missing packages, build and run every test and check; 25 minutes on two cores"
-	@echo "make test-all   also with a second compiler and under sanitizers, and the build of make demo: an hour"
+	@echo "make test-all   also with a second compiler and under sanitizers, and the build of make build: an hour"
 	@echo "make build      the optimised program, build/release/bin/pintle"
 	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
 	@echo "make bench      work-precision against SUNDIALS, Simbody and MuJoCo, a quarter of an hour; QUICK=1: one minute"
@@ -69,8 +69,8 @@ test:
 
 # Before a release, and after changes of memory or types: an hour.
 test-all: test
-	$(call say,the program alone as make demo builds it)
-	@$(MAKE) --no-print-directory build-demo
+	$(call say,the program as make demo and make build build it)
+	@$(MAKE) --no-print-directory build
 	@$(MAKE) --no-print-directory test-clang
 
 check-sources:

@@ -1,4 +1,5 @@
 // Batches in registers that every processor has, and the choice between these and wider ones.
+#include "batch/batch_work.h"
 #include "simd/processor_registers.h"
 
 #if PINTLE_BUILDS_128
