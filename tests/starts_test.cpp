@@ -305,9 +305,9 @@ TEST(Starts, ARopeThatIsSlackByATurnIsFollowedOrEndsTheRun) {
 
 TEST(Starts, MotorsThatContradictEachOtherAreNamed) {
   Model model = test_model("two_motors_on_a_four_bar", {"simulate.duration=0.01"});
-  EXPECT_NE(notes_of(model).find("motors n, m drive a mechanism with one degree of freedom"), std::string::npos) << notes_of(model);
+  EXPECT_NE(notes_of(model).find("motors n, m together drive one degree of freedom"), std::string::npos) << notes_of(model);
   model.motors.pop_back();
-  EXPECT_EQ(notes_of(model).find("drive a mechanism"), std::string::npos);
+  EXPECT_EQ(notes_of(model).find("together drive"), std::string::npos);
 }
 
 // If a soft thread had to carry the inertia of its lever from the first instant on, its preload would turn this lever twice.

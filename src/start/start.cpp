@@ -174,9 +174,11 @@ void note_conflicting_motors(const System& system, const Vecs& q, std::vector<st
   }
   if (servos < 2 || system.bodies.size() > kMostBodies) return;
   const CheckMobility counts = check_mobility(system, q).counts;
-  if (counts.rank < 0 || counts.freedoms - counts.rank - counts.mobility_driven >= servos) return;
-  notes.push_back(fmt::format("motors {} drive a mechanism with {} of freedom: the differences between their targets deflect the joints, and may cause the largest forces; prescribe a speed or position for only {} of them, and a torque for the others",
-                              names, counts.mobility == 1 ? "one degree" : fmt::format("{} degrees", counts.mobility), counts.mobility == 1 ? "one" : std::to_string(counts.mobility)));
+  if (counts.rank < 0) return;
+  const int held = counts.freedoms - counts.rank - counts.mobility_driven;  // degrees of freedom, by all motors
+  if (held >= servos) return;
+  notes.push_back(fmt::format("motors {} together drive {} of freedom: the differences between their targets deflect the joints, and may cause the largest forces; prescribe a speed or position for only {} of them, and a torque for the others",
+                              names, held == 1 ? "one degree" : fmt::format("{} degrees", held), held == 1 ? "one" : std::to_string(held)));
 }
 
 Assembly start_as_asked(const Model& model, double known_span) {

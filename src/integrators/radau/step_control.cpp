@@ -54,7 +54,7 @@ std::string no_step_message(const BasicSystem<S>& system, double t, double h, st
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
   std::string text = fmt::format("the step size became too small at t = {:.9g} s, step {:.3g} s", t, h);
   if (!event.empty()) text += "; " + event;
-  if (event.starts_with("kink or jump")) text += ", again and again: a force that jumps at some position drives its bodies back and forth across it; try a force that is 0 there (a damper on the relative speed, or a ramp by smoothstep)";
+  if (event.starts_with("kink or jump")) text += "; if a force jumps there and drives its bodies back and forth across the jump, try one that is 0 there (a damper on the relative speed, or a ramp by smoothstep)";
   for (std::size_t i = 0; i < std::min(kNamed, residuals.size()); ++i) {
     const BasicJointData<S>& joint = system.joints[residuals[i].second];
     text += fmt::format("; joint {} (residual {:.3g} m/s^2){}", joint.name, residuals[i].first, undefined_edge(joint));

@@ -39,7 +39,7 @@ class StepControl {
     rounding_ = floor_h_ = floor_error_ = 0;
     at_floor_ = 0;
     same_ = stopped_short_ = unreached_ = 0;
-    short_step_ = 0;
+    short_step_ = event_by_ = 0;
     same_function_ = -1;
     steps_at_event_ = 0;
     event_ = {};
@@ -130,6 +130,7 @@ class StepControl {
   int at_floor_ = 0;       // steps in a row
   double rounding_ = 0;    // rounding error of accelerations, relative to the tolerance: no step resolves it
   int stopped_short_ = 0;                 // steps in a row that ended before an event, since the last one that was crossed
+  double event_by_ = 0;                   // the end of the last step that an event was located in [s]: until then the usual step stays as it is
   double short_step_ = 0;                 // the last step, if it led up to an event [s]
   int unreached_ = 0;                     // such steps in a row that were equally long
   int same_ = 0, same_function_ = -1;     // consecutive events of one function
@@ -218,7 +219,7 @@ class StepControl {
     count_same(event, counters);
     method.cross_event(distance, event);
     stopped_short_ = unreached_ = 0;
-    short_step_ = 0;
+    short_step_ = event_by_ = 0;
     method.begin_at_end();
   }
 
@@ -232,13 +233,18 @@ class StepControl {
     return true;
   }
 
-  void accept(double h, double factor, bool up_to_event) {
+  // After a step of h that ends at t. `reaching`: the step that an event was located in, if this one was shortened to end before it [s].
+  void accept(double t, double h, double factor, bool up_to_event, double reaching) {
+    if (reaching > 0) event_by_ = t - h + reaching;
+    const bool approaches = up_to_event || t < event_by_;
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
-    stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
+    stopped_short_ = approaches ? stopped_short_ + 1 : 0;
     unreached_ = up_to_event && is_same_distance(h, short_step_) ? unreached_ + 1 : 0;
     short_step_ = up_to_event ? h : 0;
+    if (!approaches) usual = next;
     if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this shortened step
-    else usual = next;
+    // The curve of a step across a jump leads to the jump too early, always by the same part of the step. Steps between these two come closer.
+    if (up_to_event && stopped_short_ >= kFewShort) next = std::min(next, std::sqrt(h * reaching));
   }
 };
 
@@ -252,6 +258,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   int crossed = 0;                           // events crossed at its start
   SwitchingEvent ahead;                      // the last event located
   Approach approach;                         // to an event
+  double reaching = 0;                       // the last step that an event was located in
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t(), last_bits = kLastBits * std::max(std::abs(method.t()), std::abs(t_end));
     if (crossed > 0 && left <= last_bits) return true;  // the last event was at the end
@@ -287,6 +294,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     }
     if (event.after < 1) {
       up_to_event = true;
+      reaching = h;
       const bool at_end = solved && left - event.before * h <= last_bits;  // then nothing follows it
       // Keeps the last stage off the event.
       h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
@@ -330,10 +338,13 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
     if (counters.steps > 0 && error > 0) factor = std::min(factor, of_contraction(method.contraction()));  // without an error above rounding the contraction is no guide
-    if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) up_to_event = false;
+    if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) {
+      up_to_event = false;
+      reaching = event_by_ = 0;
+    }
     method.finish_step(h);
     ++counters.steps;
-    accept(h, factor, up_to_event);
+    accept(method.t(), h, factor, up_to_event, reaching);
     leave_floor(h, t_end);
     return true;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <variant>
 
@@ -50,6 +51,16 @@ std::string range_example(double number, const KeySpec& spec) {
   if (needs_positive) return unit.empty() ? below_one ? "0.01" : "1" : "a small positive value, such as \"1e-3" + unit + "\"";
   if (spec.minimum && spec.maximum) return short_number(*spec.minimum) + " to " + short_number(*spec.maximum);
   return spec.minimum ? short_number(*spec.minimum) + " or more" : example_of(spec);
+}
+
+// A number with or without a unit: anything else is computed.
+bool is_plain_quantity(const Node& node) {
+  if (node.string() == nullptr) return true;
+  const char* const text = node.string()->c_str();
+  char* rest = nullptr;
+  std::strtod(text, &rest);
+  while (*rest == ' ') ++rest;
+  return rest != text && parse_unit(rest);
 }
 
 std::string list_example(const KeySpec& spec) {
@@ -129,7 +140,12 @@ std::optional<std::string> RecordReader::wrong_dimension(const Dimension& found,
 bool RecordReader::in_range(double number, const Node& node, const KeySpec& spec, const std::string& path) {
   std::string problem = range_problem(number, spec);
   if (problem.empty()) return true;
-  complaints_.add(node.spot, path, describe(node), std::move(problem), range_example(number, spec));
+  std::string suggestion = range_example(number, spec);
+  if (!is_plain_quantity(node)) {
+    problem += fmt::format(", and is {:.6g}{}", number, spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit);
+    suggestion = "check the signs and units of what it is computed from; an angle without a unit is in radians";
+  }
+  complaints_.add(node.spot, path, describe(node), std::move(problem), std::move(suggestion));
   return false;
 }
 

@@ -28,10 +28,10 @@ constexpr KeyInfo kRestitution{.key = "restitution", .unit = "", .fallback = 0.8
 constexpr KeyInfo kStiffness{.key = "contact_stiffness", .unit = "", .meaning = "force at a depth of 1 m [N/m^contact_exponent]; 0: Hertz' of elastic_modulus, pin_radius and clearance"};
 constexpr KeyInfo kExponent{.key = "contact_exponent", .unit = "", .fallback = 1.5, .minimum = 1, .meaning = "the force goes as the depth to this power; 1 in the linear model"};
 constexpr KeyInfo kModulus{.key = "elastic_modulus", .unit = "Pa", .fallback = 207e9, .minimum_exclusive = true, .meaning = "of pin and bush, where contact_stiffness is not stated"};
-constexpr KeyInfo kPoisson{.key = "poisson_ratio", .unit = "", .fallback = 0.3, .meaning = "the same"};
+constexpr KeyInfo kPoisson{.key = "poisson_ratio", .unit = "", .fallback = 0.3, .meaning = "the same; at most 0.5"};
 constexpr KeyInfo kFixedDamping{.key = "damping_factor", .unit = "s/m", .meaning = "damping over elastic force and speed, instead of restitution and approach speed (Hunt and Crossley: 3/2 of their alpha)"};
 constexpr KeyInfo kViscous{.key = "contact_damping", .unit = "N*s/m", .meaning = "of the linear model"};
-constexpr KeyInfo kLeastApproach{.key = "least_approach_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "floor of the approach speed, and what stands for it in a contact that the run starts with"};
+constexpr KeyInfo kLeastApproach{.key = "least_approach_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "floor of the approach speed, also used for contacts that the run starts with"};
 constexpr KeyInfo kAttracts{.key = "attraction", .unit = "", .words = kAttraction, .meaning = "where the damping would make the force pull: no force, or the formula as it stands"};
 constexpr KeyInfo kFriction{.key = "friction_coefficient", .unit = "", .meaning = "of the pin's surface along the other one"};
 constexpr KeyInfo kRampStart{.key = "friction_start_speed", .unit = "m/s", .meaning = "slip below which there is no friction"};
