@@ -50,7 +50,7 @@ void check_times(const Document& document, const SweepPlan& plan, const Model& b
     }
     if (other.duration != base.simulate.duration || other.output_step != base.simulate.output_step)
       refuse(document, "simulate", fmt::format("sample {} lasts {:g} s with rows every {:g} s, the model as it is {:g} s with rows every {:g} s", sample, other.duration, other.output_step, base.simulate.duration, base.simulate.output_step),
-             "duration and output_step depend on the varying values, but series need the same ones in every sample", "--set both simulate.duration=... and simulate.output_step=..., or leave out --series");
+             "duration and output times depend on the varying values, but series need the same ones in every sample", "--set both simulate.duration=... and simulate.output_step=..., or leave out --series");
   }
 }
 
