@@ -233,9 +233,10 @@ class StepControl {
     return true;
   }
 
-  // After a step of h that ends at t. `reaching`: the step that an event was located in, if this one was shortened to end before it [s].
-  void accept(double t, double h, double factor, bool up_to_event, double reaching) {
-    if (reaching > 0) event_by_ = t - h + reaching;
+  // After a step of h that ends at t. `reaching`: the step that an event was located in, if this one was to end before it [s]; 0: there is none.
+  void accept(double t, double h, double factor, double reaching) {
+    const bool up_to_event = reaching > 0;
+    if (up_to_event) event_by_ = t - h + reaching;
     const bool approaches = up_to_event || t < event_by_;
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
     stopped_short_ = approaches ? stopped_short_ + 1 : 0;
@@ -252,18 +253,18 @@ template <class Method>
 bool StepControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
-  bool up_to_event = false, refused = false;  // refused by Newton's iteration
+  double reaching = 0;   // the step that an event was located in, if this one is to end before it
+  bool refused = false;  // by Newton's iteration
   Steady steady;
   bool renewed = false;                      // the start has been, for this attempt
   int crossed = 0;                           // events crossed at its start
   SwitchingEvent ahead;                      // the last event located
   Approach approach;                         // to an event
-  double reaching = 0;                       // the last step that an event was located in
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t(), last_bits = kLastBits * std::max(std::abs(method.t()), std::abs(t_end));
     if (crossed > 0 && left <= last_bits) return true;  // the last event was at the end
-    if (h > left || (!up_to_event && left - h < 1e-3 * h)) h = left;
-    else if (!up_to_event && left < 1.7 * h) h = 0.5 * left;
+    if (h > left || (reaching == 0 && left - h < 1e-3 * h)) h = left;
+    else if (reaching == 0 && left < 1.7 * h) h = 0.5 * left;
     if (h <= kLastBits * std::abs(method.t())) break;  // however far away the end is
     const bool solved = method.attempt(h);
     if (!solved) {
@@ -274,7 +275,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < 1) {
       ++counters.rejected;
       h *= std::max(seen, kLeast);  // the solution of Newton's iteration may lie anywhere
-      up_to_event = false;
+      reaching = 0;
       continue;
     }
     // Functions that change sign again and again in the last bits are ignored after a while.
@@ -293,7 +294,6 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       continue;
     }
     if (event.after < 1) {
-      up_to_event = true;
       reaching = h;
       const bool at_end = solved && left - event.before * h <= last_bits;  // then nothing follows it
       // Keeps the last stage off the event.
@@ -338,13 +338,10 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
     if (counters.steps > 0 && error > 0) factor = std::min(factor, of_contraction(method.contraction()));  // without an error above rounding the contraction is no guide
-    if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) {
-      up_to_event = false;
-      reaching = event_by_ = 0;
-    }
+    if (h < kOnTheWay * (ahead.t - method.t())) reaching = event_by_ = 0;
     method.finish_step(h);
     ++counters.steps;
-    accept(method.t(), h, factor, up_to_event, reaching);
+    accept(method.t(), h, factor, reaching);
     leave_floor(h, t_end);
     return true;
   }
