@@ -58,7 +58,7 @@ struct PinContact : RubbingContact {
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 7> all{{{"contact_force", "N", "normal force of the contact"},
                                                {"penetration", "m", "depth by which the surfaces overlap; negative while they are apart"},
-                                               {"contact_angle", "rad", "direction of the contact's normal, from the x axis of the first marker"},
+                                               {"contact_angle", "rad", "direction in which the second body presses the first, from the x axis of the first marker"},
                                                {"approach_speed", "m/s", "speed at which this contact began; 0 while apart"},
                                                {"slip", "m/s", "speed of the pin's surface along the other one"},
                                                {"wear_power", "W", "normal force times speed of slip: its integral is what Archard's law multiplies"},
