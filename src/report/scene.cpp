@@ -14,6 +14,7 @@ namespace pintle {
 namespace {
 
 constexpr double kSymbolOfBox = 0.021, kSymbolOfSpan = 0.11, kSymbolOfShortest = 0.24;
+constexpr double kSymbolAtLeast = 0.007;  // of the box: with less, the pins and supports of a trough of a metre on an eccentric of 5 mm are invisible
 constexpr double kArrowOfBox = 0.2;  // of the geometric mean of the box's sides
 
 double distance(const Vec2& a, const Vec2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
@@ -145,7 +146,7 @@ void SceneMaker::measure() {
     std::sort(spans.begin(), spans.end());
     unit = std::min({unit, kSymbolOfSpan * spans[spans.size() / 2], kSymbolOfShortest * spans.front()});
   }
-  scene_.unit = std::max(unit, 1e-4 * size);
+  scene_.unit = std::max(unit, kSymbolAtLeast * size);
   const double margin = 3 * scene_.unit;
   scene_.box = {{box.low[0] - margin, box.low[1] - margin}, {box.high[0] + margin, box.high[1] + margin}};
 }

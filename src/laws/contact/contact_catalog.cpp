@@ -37,7 +37,7 @@ constexpr KeyInfo kFriction{.key = "friction_coefficient", .unit = "", .meaning 
 constexpr KeyInfo kRampStart{.key = "friction_start_speed", .unit = "m/s", .meaning = "slip below which there is no friction"};
 constexpr KeyInfo kRampEnd{.key = "friction_full_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip above which there is all of it"};
 
-constexpr KeyInfo kStiction{.key = "static_friction", .unit = "", .minimum_exclusive = true, .otherwise = "no stiction: friction on a ramp", .meaning = "coefficient at which slip begins, not below friction_coefficient: with it surfaces stick that do not slip"};
+constexpr KeyInfo kStiction{.key = "static_friction", .unit = "", .minimum_exclusive = true, .otherwise = "no stiction: friction on a ramp", .meaning = "coefficient at which slip begins, not below friction_coefficient, which it requires: with it surfaces stick that do not slip"};
 constexpr KeyInfo kStickStiffness{.key = "stick_stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .meaning = "of surfaces that stick, along each other"};
 constexpr KeyInfo kStickDamping{.key = "stick_damping", .unit = "N*s/m", .fallback = 1e5, .meaning = "the same per speed"};
 
