@@ -130,7 +130,7 @@ class StepControl {
   int at_floor_ = 0;       // steps in a row
   double rounding_ = 0;    // rounding error of accelerations, relative to the tolerance: no step resolves it
   int stopped_short_ = 0;                 // steps in a row that ended before an event, since the last one that was crossed
-  double event_by_ = 0;                   // the end of the last step that an event was located in [s]: until then the usual step stays as it is
+  double event_by_ = 0;                   // where kFewShort steps have ended before an event, the end of the one that it was located in [s]: until then the usual step stays as it is
   double short_step_ = 0;                 // the last step, if it led up to an event [s]
   int unreached_ = 0;                     // such steps in a row that were equally long
   int same_ = 0, same_function_ = -1;     // consecutive events of one function
@@ -236,7 +236,7 @@ class StepControl {
   // After a step of h that ends at t. `reaching`: the step that an event was located in, if this one was to end before it [s]; 0: there is none.
   void accept(double t, double h, double factor, double reaching) {
     const bool up_to_event = reaching > 0;
-    if (up_to_event) event_by_ = t - h + reaching;
+    if (up_to_event && stopped_short_ + 1 >= kFewShort) event_by_ = t - h + reaching;
     const bool approaches = up_to_event || t < event_by_;
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
     stopped_short_ = approaches ? stopped_short_ + 1 : 0;
