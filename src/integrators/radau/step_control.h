@@ -39,7 +39,7 @@ class StepControl {
     rounding_ = floor_h_ = floor_error_ = 0;
     at_floor_ = 0;
     same_ = stopped_short_ = unreached_ = 0;
-    short_step_ = event_by_ = 0;
+    short_step_ = event_by_ = usual_before_ = 0;
     same_function_ = -1;
     steps_at_event_ = 0;
     event_ = {};
@@ -130,7 +130,8 @@ class StepControl {
   int at_floor_ = 0;       // steps in a row
   double rounding_ = 0;    // rounding error of accelerations, relative to the tolerance: no step resolves it
   int stopped_short_ = 0;                 // steps in a row that ended before an event, since the last one that was crossed
-  double event_by_ = 0;                   // where kFewShort steps have ended before an event, the end of the one that it was located in [s]: until then the usual step stays as it is
+  double event_by_ = 0;                   // where kFewShort steps have ended before an event, the end of the one that it was located in [s]
+  double usual_before_ = 0;               // the usual step before these; 0: there are none [s]
   double short_step_ = 0;                 // the last step, if it led up to an event [s]
   int unreached_ = 0;                     // such steps in a row that were equally long
   int same_ = 0, same_function_ = -1;     // consecutive events of one function
@@ -154,7 +155,9 @@ class StepControl {
     return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= tolerance);
   }
 
-  bool is_at_start(double after) const { return after < 2 * kEventAtStart * usual; }
+  // An event this close to the start of a step is crossed there, if forces stay constant until then.
+  double at_start() const { return kEventAtStart * std::max(usual, usual_before_); }
+  bool is_at_start(double after) const { return after < 2 * at_start(); }
   // Whether an event this long after the start of a step is crossed there. A contact may be ten thousand times as short as the flight before it: its end is
   // crossed there only if forces stay constant until then, or if steps of this length have got no nearer to it: in the steep ramp of a held jump a speed may
   // be the last number before the ramp's end.
@@ -208,7 +211,7 @@ class StepControl {
   template <class Method>
   SwitchingEvent first_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
     SwitchingEvent event = method.locate_event(h, solved);
-    if (event.before * h < kEventAtStart * usual) locate_on_taylor_series(method, 2 * kEventAtStart * usual, h, event);
+    if (event.before * h < at_start()) locate_on_taylor_series(method, 2 * at_start(), h, event);
     const bool left_alone = solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance);
     return left_alone ? SwitchingEvent{} : event;
   }
@@ -219,7 +222,7 @@ class StepControl {
     count_same(event, counters);
     method.cross_event(distance, event);
     stopped_short_ = unreached_ = 0;
-    short_step_ = event_by_ = 0;
+    short_step_ = event_by_ = usual_before_ = 0;
     method.begin_at_end();
   }
 
@@ -236,13 +239,17 @@ class StepControl {
   // After a step of h that ends at t. `reaching`: the step that an event was located in, if this one was to end before it [s]; 0: there is none.
   void accept(double t, double h, double factor, double reaching) {
     const bool up_to_event = reaching > 0;
-    if (up_to_event && stopped_short_ + 1 >= kFewShort) event_by_ = t - h + reaching;
+    if (up_to_event && stopped_short_ + 1 >= kFewShort) {
+      event_by_ = t - h + reaching;
+      usual_before_ = std::max(usual, usual_before_);
+    }
     const bool approaches = up_to_event || t < event_by_;
+    if (!approaches) usual_before_ = 0;
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
     stopped_short_ = approaches ? stopped_short_ + 1 : 0;
     unreached_ = up_to_event && is_same_distance(h, short_step_) ? unreached_ + 1 : 0;
     short_step_ = up_to_event ? h : 0;
-    if (!approaches) usual = next;
+    if (!up_to_event) usual = next;
     if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this shortened step
     // The curve of a step across a jump leads to the jump too early, always by the same part of the step. Steps between these two come closer.
     if (up_to_event && stopped_short_ >= kFewShort) next = std::min(next, std::sqrt(h * reaching));
