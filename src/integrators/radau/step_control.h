@@ -72,7 +72,7 @@ class StepControl {
  private:
   static constexpr int kMaxRetries = 80;          // attempts at one step, at most
   static constexpr double kEventAtStart = 1e-5;   // fraction of the usual step: an event this close to a step's start is crossed there, if forces stay constant until then
-  static constexpr int kSlow = 10;                // attempts at reaching an event, after which they are taken for a sequence that converges by a constant ratio: most arrive in three
+  static constexpr int kSlow = 10;                // attempts at reaching an event, or steps that end before it, after which they are taken for a sequence that converges by a constant ratio: most arrive in three
   static constexpr int kFewShort = 3;             // steps in a row that end before an event without reaching it, before a Taylor step is tried: positions are rounded, and a shorter step gets no closer. 1 to 6 are equally good; 0 takes six times the steps at the corners of a table
   static constexpr double kSameDistance = 0.01;    // relative difference of two steps up to an event for which the first has not got nearer to it
   static constexpr int kMostCrossed = 24;         // events crossed at the start of one step, at most
@@ -130,7 +130,7 @@ class StepControl {
   int at_floor_ = 0;       // steps in a row
   double rounding_ = 0;    // rounding error of accelerations, relative to the tolerance: no step resolves it
   int stopped_short_ = 0;                 // steps in a row that ended before an event, since the last one that was crossed
-  double event_by_ = 0;                   // where kFewShort steps have ended before an event, the end of the one that it was located in [s]
+  double event_by_ = 0;                   // where kSlow steps have ended before an event, the end of the one that it was located in [s]
   double usual_before_ = 0;               // the usual step before these; 0: there are none [s]
   double short_step_ = 0;                 // the last step, if it led up to an event [s]
   int unreached_ = 0;                     // such steps in a row that were equally long
@@ -239,7 +239,7 @@ class StepControl {
   // After a step of h that ends at t. `reaching`: the step that an event was located in, if this one was to end before it [s]; 0: there is none.
   void accept(double t, double h, double factor, double reaching) {
     const bool up_to_event = reaching > 0;
-    if (up_to_event && stopped_short_ + 1 >= kFewShort) {
+    if (up_to_event && stopped_short_ + 1 >= kSlow) {
       event_by_ = t - h + reaching;
       usual_before_ = std::max(usual, usual_before_);
     }
@@ -252,7 +252,7 @@ class StepControl {
     if (!up_to_event) usual = next;
     if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this shortened step
     // The curve of a step across a jump leads to the jump too early, always by the same part of the step. Steps between these two come closer.
-    if (up_to_event && stopped_short_ >= kFewShort) next = std::min(next, std::sqrt(h * reaching));
+    if (up_to_event && stopped_short_ >= kSlow) next = std::min(next, std::sqrt(h * reaching));
   }
 };
 
