@@ -39,7 +39,7 @@ class StepControl {
     rounding_ = floor_h_ = floor_error_ = 0;
     at_floor_ = 0;
     same_ = stopped_short_ = unreached_ = 0;
-    short_step_ = event_by_ = usual_before_ = 0;
+    short_step_ = 0;
     same_function_ = -1;
     steps_at_event_ = 0;
     event_ = {};
@@ -72,7 +72,7 @@ class StepControl {
  private:
   static constexpr int kMaxRetries = 80;          // attempts at one step, at most
   static constexpr double kEventAtStart = 1e-5;   // fraction of the usual step: an event this close to a step's start is crossed there, if forces stay constant until then
-  static constexpr int kSlow = 10;                // attempts at reaching an event, or steps that end before it, after which they are taken for a sequence that converges by a constant ratio: most arrive in three
+  static constexpr int kSlow = 10;                // attempts at reaching an event, after which they are taken for a sequence that converges by a constant ratio: most arrive in three
   static constexpr int kFewShort = 3;             // steps in a row that end before an event without reaching it, before a Taylor step is tried: positions are rounded, and a shorter step gets no closer. 1 to 6 are equally good; 0 takes six times the steps at the corners of a table
   static constexpr double kSameDistance = 0.01;    // relative difference of two steps up to an event for which the first has not got nearer to it
   static constexpr int kMostCrossed = 24;         // events crossed at the start of one step, at most
@@ -130,8 +130,6 @@ class StepControl {
   int at_floor_ = 0;       // steps in a row
   double rounding_ = 0;    // rounding error of accelerations, relative to the tolerance: no step resolves it
   int stopped_short_ = 0;                 // steps in a row that ended before an event, since the last one that was crossed
-  double event_by_ = 0;                   // where kSlow steps have ended before an event, the end of the one that it was located in [s]
-  double usual_before_ = 0;               // the usual step before these; 0: there are none [s]
   double short_step_ = 0;                 // the last step, if it led up to an event [s]
   int unreached_ = 0;                     // such steps in a row that were equally long
   int same_ = 0, same_function_ = -1;     // consecutive events of one function
@@ -155,9 +153,7 @@ class StepControl {
     return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= tolerance);
   }
 
-  // An event this close to the start of a step is crossed there, if forces stay constant until then.
-  double at_start() const { return kEventAtStart * std::max(usual, usual_before_); }
-  bool is_at_start(double after) const { return after < 2 * at_start(); }
+  bool is_at_start(double after) const { return after < 2 * kEventAtStart * usual; }
   // Whether an event this long after the start of a step is crossed there. A contact may be ten thousand times as short as the flight before it: its end is
   // crossed there only if forces stay constant until then, or if steps of this length have got no nearer to it: in the steep ramp of a held jump a speed may
   // be the last number before the ramp's end.
@@ -211,7 +207,7 @@ class StepControl {
   template <class Method>
   SwitchingEvent first_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
     SwitchingEvent event = method.locate_event(h, solved);
-    if (event.before * h < at_start()) locate_on_taylor_series(method, 2 * at_start(), h, event);
+    if (event.before * h < kEventAtStart * usual) locate_on_taylor_series(method, 2 * kEventAtStart * usual, h, event);
     const bool left_alone = solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance);
     return left_alone ? SwitchingEvent{} : event;
   }
@@ -222,7 +218,7 @@ class StepControl {
     count_same(event, counters);
     method.cross_event(distance, event);
     stopped_short_ = unreached_ = 0;
-    short_step_ = event_by_ = usual_before_ = 0;
+    short_step_ = 0;
     method.begin_at_end();
   }
 
@@ -236,23 +232,13 @@ class StepControl {
     return true;
   }
 
-  // After a step of h that ends at t. `reaching`: the step that an event was located in, if this one was to end before it [s]; 0: there is none.
-  void accept(double t, double h, double factor, double reaching) {
-    const bool up_to_event = reaching > 0;
-    if (up_to_event && stopped_short_ + 1 >= kSlow) {
-      event_by_ = t - h + reaching;
-      usual_before_ = std::max(usual, usual_before_);
-    }
-    const bool approaches = up_to_event || t < event_by_;
-    if (!approaches) usual_before_ = 0;
+  void accept(double h, double factor, bool up_to_event) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
-    stopped_short_ = approaches ? stopped_short_ + 1 : 0;
+    stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
     unreached_ = up_to_event && is_same_distance(h, short_step_) ? unreached_ + 1 : 0;
     short_step_ = up_to_event ? h : 0;
-    if (!up_to_event) usual = next;
     if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this shortened step
-    // The curve of a step across a jump leads to the jump too early, always by the same part of the step. Steps between these two come closer.
-    if (up_to_event && stopped_short_ >= kSlow) next = std::min(next, std::sqrt(h * reaching));
+    else usual = next;
   }
 };
 
@@ -260,8 +246,7 @@ template <class Method>
 bool StepControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
-  double reaching = 0;   // the step that an event was located in, if this one is to end before it
-  bool refused = false;  // by Newton's iteration
+  bool up_to_event = false, refused = false;  // refused by Newton's iteration
   Steady steady;
   bool renewed = false;                      // the start has been, for this attempt
   int crossed = 0;                           // events crossed at its start
@@ -270,8 +255,8 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t(), last_bits = kLastBits * std::max(std::abs(method.t()), std::abs(t_end));
     if (crossed > 0 && left <= last_bits) return true;  // the last event was at the end
-    if (h > left || (reaching == 0 && left - h < 1e-3 * h)) h = left;
-    else if (reaching == 0 && left < 1.7 * h) h = 0.5 * left;
+    if (h > left || (!up_to_event && left - h < 1e-3 * h)) h = left;
+    else if (!up_to_event && left < 1.7 * h) h = 0.5 * left;
     if (h <= kLastBits * std::abs(method.t())) break;  // however far away the end is
     const bool solved = method.attempt(h);
     if (!solved) {
@@ -282,7 +267,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < 1) {
       ++counters.rejected;
       h *= std::max(seen, kLeast);  // the solution of Newton's iteration may lie anywhere
-      reaching = 0;
+      up_to_event = false;
       continue;
     }
     // Functions that change sign again and again in the last bits are ignored after a while.
@@ -301,7 +286,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       continue;
     }
     if (event.after < 1) {
-      reaching = h;
+      up_to_event = true;
       const bool at_end = solved && left - event.before * h <= last_bits;  // then nothing follows it
       // Keeps the last stage off the event.
       h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
@@ -345,10 +330,10 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
     if (counters.steps > 0 && error > 0) factor = std::min(factor, of_contraction(method.contraction()));  // without an error above rounding the contraction is no guide
-    if (h < kOnTheWay * (ahead.t - method.t())) reaching = event_by_ = 0;
+    if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) up_to_event = false;
     method.finish_step(h);
     ++counters.steps;
-    accept(method.t(), h, factor, reaching);
+    accept(h, factor, up_to_event);
     leave_floor(h, t_end);
     return true;
   }
