@@ -35,7 +35,7 @@ inline constexpr const char* kExitCodeHelp =
     "  1  internal error, please report it\n"
     "  2  the command line is wrong\n"
     "  3  the model file has errors\n"
-    "  4  the mechanism cannot be assembled, or not start as the model asks\n"
+    "  4  the mechanism cannot be assembled, or cannot start as the model asks\n"
     "  5  the integration failed; results up to there are kept\n"
     "  6  a file or folder cannot be read or written\n"
     "  7  finished, but some joint's force missed the tolerance; results are kept; stiffen: no stiffness was enough\n"

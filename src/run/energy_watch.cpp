@@ -75,21 +75,21 @@ void BasicEnergyWatch<S>::start(const BasicState<S>& state) {
     elastic += body.gravity.template head<S::kDim>().dot(S::position(state.q[i]));
     storable_ += body.gravity.template head<S::kDim>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
   }
-  storable_ += std::abs(elastic) + work_of_loads_over(state, size);
+  storable_ += std::abs(elastic) + load_work_over_distance(state, size);
   deflection_ = {system_, state};
   flow_ = flow(state);
 }
 
-// The work of the loads at the start over the mechanism's size, or a radian.
+// The work of the loads at the start over a distance, and of their moments over a radian.
 template <class S>
-double BasicEnergyWatch<S>::work_of_loads_over(const BasicState<S>& state, double size) {
+double BasicEnergyWatch<S>::load_work_over_distance(const BasicState<S>& state, double distance) {
   VecsOf<S> loads(system_.bodies.size());
   system_.motions(state.q, state.v, m_);
   system_.external(state.t, m_, loads, state.sliding);
   double work = 0;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const typename S::Vec load = loads[i] - system_.bodies[i].gravity;
-    work += load.template head<S::kDim>().norm() * size + load.template tail<S::kDof - S::kDim>().norm();
+    work += load.template head<S::kDim>().norm() * distance + load.template tail<S::kDof - S::kDim>().norm();
   }
   return work;
 }
@@ -129,14 +129,14 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
       return Alarm::kOpen;
     }
   if (++since_judged_ >= kJudgedEvery)
-    if (const Alarm alarm = check_account(state); alarm != Alarm::kNone) return alarm;
-  if (const Alarm alarm = check_growth(state); alarm != Alarm::kNone) return alarm;
+    if (const Alarm alarm = check_energy_account(state); alarm != Alarm::kNone) return alarm;
+  if (const Alarm alarm = check_energy_growth(state); alarm != Alarm::kNone) return alarm;
   return check_torn_joints(state);
 }
 
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) {
-  if (const Alarm alarm = check_account(state); alarm != Alarm::kNone) return alarm;
+  if (const Alarm alarm = check_energy_account(state); alarm != Alarm::kNone) return alarm;
   if (!exact_work_ || state.dissipated > -kGiven * turnover()) return Alarm::kNone;
   message_ = fmt::format("joints and dampers have delivered {:.3g} J, but can only dissipate: likely a negative damping, or friction whose slip jumped within a step, as at a corner of an edge", -state.dissipated);
   return Alarm::kOpen;
@@ -149,7 +149,7 @@ double BasicEnergyWatch<S>::turnover() const {
 
 // Eq. (8.2).
 template <class S>
-typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_account(const BasicState<S>& state) {
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_energy_account(const BasicState<S>& state) {
   since_judged_ = 0;
   const double stored = potential(state), kinetic = system_.kinetic(state.v);
   swing_ = std::max(swing_, std::abs(stored - potential_));
@@ -161,12 +161,12 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_account(const Bas
     missing_ = missing;
     return Alarm::kNone;
   }
-  describe_open_account(state, missing, within);
+  describe_open_energy_account(state, missing, within);
   return Alarm::kOpen;
 }
 
 template <class S>
-void BasicEnergyWatch<S>::describe_open_account(const BasicState<S>& state, double missing, double within) {
+void BasicEnergyWatch<S>::describe_open_energy_account(const BasicState<S>& state, double missing, double within) {
   const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.ideal; });
   const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;
@@ -182,7 +182,7 @@ void BasicEnergyWatch<S>::describe_open_account(const BasicState<S>& state, doub
 // Eq. (8.4). Only supplied energy counts: the mechanism already had what falling weights or springs give. What dampers give counts too, what they take does not: a
 // joint that is torn open takes most of it.
 template <class S>
-typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_growth(const BasicState<S>& state) {
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_energy_growth(const BasicState<S>& state) {
   const double energy = state.supplied + std::max(0.0, -state.dissipated);
   bool more = false;
   while (reached_ < kDecades && energy > storable_ * std::pow(10.0, reached_)) {

@@ -41,14 +41,14 @@ class BasicEnergyWatch {
     bool listens;     // depends on the motion, not on time alone, so that a sign may be wrong
     double work = 0;  // [J]
   };
-  Alarm check_account(const BasicState<S>& state);
-  Alarm check_growth(const BasicState<S>& state);
+  Alarm check_energy_account(const BasicState<S>& state);
+  Alarm check_energy_growth(const BasicState<S>& state);
   Alarm check_torn_joints(const BasicState<S>& state);
   void add_works(const BasicState<S>& state, double h);
   double potential(const BasicState<S>& state);
-  double work_of_loads_over(const BasicState<S>& state, double size);
+  double load_work_over_distance(const BasicState<S>& state, double distance);
   double flow(const BasicState<S>& state);
-  void describe_open_account(const BasicState<S>& state, double missing, double within);
+  void describe_open_energy_account(const BasicState<S>& state, double missing, double within);
   void describe_runaway(const BasicState<S>& state, double energy, const std::string& how);
   const Feeder* largest_feeder() const;
 

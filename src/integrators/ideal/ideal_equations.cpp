@@ -188,7 +188,7 @@ bool IdealEquations::find_modes() {
 }
 
 // With L of each joint: L^-1 x, for what rows should have.
-Eigen::VectorXd IdealEquations::to_orthonormal(Eigen::VectorXd x) const {
+Eigen::VectorXd IdealEquations::to_orthonormal_rows(Eigen::VectorXd x) const {
   for (const auto& [first, n, lower] : joint_rows_)
     for (int i = 0; i < n; ++i) {
       for (int k = 0; k < i; ++k) x[first + i] -= lower(i, k) * x[first + k];
@@ -197,7 +197,7 @@ Eigen::VectorXd IdealEquations::to_orthonormal(Eigen::VectorXd x) const {
   return x;
 }
 // L'^-1 y, for multipliers.
-Eigen::VectorXd IdealEquations::multipliers_of(Eigen::VectorXd y) const {
+Eigen::VectorXd IdealEquations::to_multipliers(Eigen::VectorXd y) const {
   for (const auto& [first, n, lower] : joint_rows_)
     for (int i = n - 1; i >= 0; --i) {
       for (int k = i + 1; k < n; ++k) y[first + i] -= lower(k, i) * y[first + k];
@@ -205,8 +205,8 @@ Eigen::VectorXd IdealEquations::multipliers_of(Eigen::VectorXd y) const {
     }
   return y;
 }
-// L y, the inverse of `to_orthonormal`.
-Eigen::VectorXd IdealEquations::from_orthonormal(const Eigen::VectorXd& y) const {
+// L y, the inverse of `to_orthonormal_rows`.
+Eigen::VectorXd IdealEquations::from_orthonormal_rows(const Eigen::VectorXd& y) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(y.size());
   for (const auto& [first, n, lower] : joint_rows_)
     for (int i = 0; i < n; ++i)
@@ -216,13 +216,13 @@ Eigen::VectorXd IdealEquations::from_orthonormal(const Eigen::VectorXd& y) const
 
 void IdealEquations::solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const {
   if (n_redundant_ == 0) {
-    multipliers = multipliers_of(factors_.solve(to_orthonormal(wanted)));
+    multipliers = to_multipliers(factors_.solve(to_orthonormal_rows(wanted)));
     return;
   }
   const Eigen::Index kept = wanted.size() - n_redundant_;
   const auto V = modes_.eigenvectors().rightCols(kept);
   const Eigen::VectorXd values = modes_.eigenvalues().tail(kept).cwiseMax(damped_);
-  multipliers = multipliers_of(V * (V.transpose() * to_orthonormal(wanted)).cwiseQuotient(values));
+  multipliers = to_multipliers(V * (V.transpose() * to_orthonormal_rows(wanted)).cwiseQuotient(values));
 }
 
 Eigen::VectorXd IdealEquations::rates(const Vecs& x) const {
@@ -384,7 +384,7 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
     if (!factorize()) return false;
     if (n_redundant_ > 0) {  // only what can be closed
       const auto V = modes_.eigenvectors().rightCols(missing.size() - n_redundant_);
-      largest = from_orthonormal(V * (V.transpose() * to_orthonormal(missing))).cwiseAbs().maxCoeff();
+      largest = from_orthonormal_rows(V * (V.transpose() * to_orthonormal_rows(missing))).cwiseAbs().maxCoeff();
     }
     if (largest <= kLastBits * size_) return true;
     if (!(largest < before)) return largest <= std::max(1e3 * kLastBits * size_, kLastBits * largest_number(q));  // roundoff, or the loops cannot be closed
@@ -454,7 +454,7 @@ Eigen::VectorXd IdealEquations::nearest_dependency() const {
     for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1 + 0.1 * std::sin(static_cast<double>(7 * i + 1));
     for (int i = 0; i < 4; ++i) x = factors_.solve(x).normalized().eval();
   }
-  x = multipliers_of(x);
+  x = to_multipliers(x);
   for (const auto& [first, n, lower] : joint_rows_)
     for (int i = 0; i < n; ++i) x[first + i] *= lower.row(i).norm();  // of rows of unit length
   return x.normalized();

@@ -70,7 +70,7 @@ class IdealEquations {
   /// The violation as a remark on a method.
   std::string violation_text(const std::string& method) const;
 
-  /// How independent the rows are: the root of the smallest pivot of their scaled matrix, 1 if they are orthogonal and 0
+  /// How independent the rows are: the root of the smallest pivot of the matrix of orthonormal rows, 1 if they are orthogonal and 0
   /// at a singular position [-].
   double independence(double t, const Vecs& q);
   /// The same at the position last evaluated.
@@ -94,9 +94,9 @@ class IdealEquations {
   bool factorize_sparse();
   bool factorize_with_penalties();
   bool find_modes();
-  Eigen::VectorXd to_orthonormal(Eigen::VectorXd x) const;
-  Eigen::VectorXd from_orthonormal(const Eigen::VectorXd& y) const;
-  Eigen::VectorXd multipliers_of(Eigen::VectorXd y) const;
+  Eigen::VectorXd to_orthonormal_rows(Eigen::VectorXd x) const;
+  Eigen::VectorXd from_orthonormal_rows(const Eigen::VectorXd& y) const;
+  Eigen::VectorXd to_multipliers(Eigen::VectorXd y) const;
   void solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const;
   Eigen::VectorXd rates(const Vecs& x) const;                        // G x
   void push(const Eigen::VectorXd& multipliers, Vecs& x) const;      // x += M^-1 G' multipliers

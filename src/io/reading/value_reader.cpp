@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 #include <variant>
 
@@ -42,9 +41,12 @@ std::string short_number(double number) {
   return fmt::format("{}", number);
 }
 
+// " mm", to stand after a number; empty where the key has no unit of its own.
+std::string unit_after_number(const KeySpec& spec) { return spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit; }
+
 std::string range_example(double number, const KeySpec& spec) {
   const bool needs_positive = spec.minimum && *spec.minimum == 0 && number <= 0;
-  const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
+  const std::string unit = unit_after_number(spec);
   if (needs_positive && number < 0 && !unit.empty()) return "reverse the sign: \"" + short_number(-number) + unit + "\"";
   const double* usual = spec.fallback ? spec.fallback->real() : nullptr;
   const bool below_one = (spec.maximum && *spec.maximum <= 1) || (usual != nullptr && *usual < 1);
@@ -56,11 +58,11 @@ std::string range_example(double number, const KeySpec& spec) {
 // A number with or without a unit: anything else is computed.
 bool is_plain_quantity(const Node& node) {
   if (node.string() == nullptr) return true;
-  const char* const text = node.string()->c_str();
-  char* rest = nullptr;
-  std::strtod(text, &rest);
-  while (*rest == ' ') ++rest;
-  return rest != text && parse_unit(rest);
+  const std::string_view text = *node.string();
+  std::size_t at = skip_blanks(text, 0);
+  if (at < text.size() && (text[at] == '-' || text[at] == '+')) ++at;
+  const std::string_view number = number_at(text, at);
+  return !number.empty() && parse_unit(text.substr(skip_blanks(text, at + number.size())));
 }
 
 std::string list_example(const KeySpec& spec) {
@@ -85,7 +87,7 @@ bool mentions(const Node& node, const std::vector<std::string>& variables) { ret
 }  // namespace
 
 std::string range_problem(double number, const KeySpec& spec) {
-  const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
+  const std::string unit = unit_after_number(spec);
   const bool feeds = spec.key.find("damping") != std::string::npos || spec.key.find("stiffness") != std::string::npos;
   if (feeds && number < 0 && spec.minimum) return "a negative " + spec.key + " feeds energy into the mechanism";
   if (spec.minimum && spec.minimum_exclusive && number <= *spec.minimum) {
@@ -142,7 +144,7 @@ bool RecordReader::in_range(double number, const Node& node, const KeySpec& spec
   if (problem.empty()) return true;
   std::string suggestion = range_example(number, spec);
   if (!is_plain_quantity(node)) {
-    problem += fmt::format(", and is {:.6g}{}", number, spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit);
+    problem += fmt::format(", and is {:.6g}{}", number, unit_after_number(spec));
     suggestion = "check the signs and units of what it is computed from; an angle without a unit is in radians";
   }
   complaints_.add(node.spot, path, describe(node), std::move(problem), std::move(suggestion));

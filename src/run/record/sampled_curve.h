@@ -79,8 +79,8 @@ double adaptive_romberg_integral(const std::function<double(double)>& at, double
 /// Integral over the step of the function `at` of the fraction of the step, with these values at the points. The step is divided only near the kinks of a magnitude.
 template <class At>
 double integral_over_step(const CurveGrid::AtPoints& value, double total, const At& at, bool every_second = false) {
-  const RombergOnGrid on_grid(value, total, every_second);
-  return on_grid.agrees ? on_grid.integral : adaptive_romberg_integral(std::cref(at), on_grid.allowed);
+  const RombergOnGrid grid_estimate(value, total, every_second);
+  return grid_estimate.agrees ? grid_estimate.integral : adaptive_romberg_integral(std::cref(at), grid_estimate.allowed);
 }
 
 enum class Sums { kOfSize, kWithSign };
