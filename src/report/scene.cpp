@@ -14,7 +14,7 @@ namespace pintle {
 namespace {
 
 constexpr double kSymbolOfBox = 0.021, kSymbolOfSpan = 0.11, kSymbolOfShortest = 0.24;
-constexpr double kSymbolAtLeast = 0.007;  // of the box: with less, the pins and supports of a trough of a metre on an eccentric of 5 mm are invisible
+constexpr double kSymbolAtLeast = 0.007;  // of the box. A trough of a metre on an eccentric of 5 mm: with half of it supports are specks, with twice it the pin hides the eccentric
 constexpr double kArrowOfBox = 0.2;  // of the geometric mean of the box's sides
 
 double distance(const Vec2& a, const Vec2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
