@@ -230,6 +230,22 @@ TEST(Mistakes, AFaultyParameterIsBlamedOnce) {
   EXPECT_EQ(complaints[0].path, "parameters.a");
 }
 
+TEST(Mistakes, AFaultyMarkerIsBlamedOnce) {
+  const auto complaints = complaints_about(R"(format = 1
+[simulate]
+duration = 1
+[body.arm]
+mass = 1
+inertia = 1
+markers.tip = ["1 kg", 0]
+[force.wind]
+on = "arm.tip"
+force = ["-8 N*s/m*arm.tip.vx", 0]
+)");
+  ASSERT_EQ(complaints.size(), 1u);
+  EXPECT_EQ(complaints[0].path, "body.arm.markers.tip");
+}
+
 TEST(Mistakes, AParameterIsSetByItsPath) {
   const auto found = complaints_about("format = 1\n[parameters]\nreach = 1\n[body.c]\nmass = 1\ninertia = 1\n", {"reach=2"});
   ASSERT_EQ(found.size(), 1U);

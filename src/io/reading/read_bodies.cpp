@@ -16,9 +16,9 @@ std::vector<Marker> read_markers(ModelReading& reading, const Entry& owner, cons
     const std::string marker_path = path + ".markers." + entry.key;
     check_name(reading, entry, marker_path);
     names.insert(entry.key);
-    if (std::optional<Marker> marker = reading.records.read_marker(entry, marker_path)) {
-      markers.push_back(std::move(*marker));
-    }
+    // A faulty one keeps its name: expressions that read it are not at fault.
+    std::optional<Marker> marker = reading.records.read_marker(entry, marker_path);
+    markers.push_back(marker ? std::move(*marker) : Marker{.name = entry.key});
   }
   return markers;
 }
