@@ -40,18 +40,18 @@ bool leave_sliding(const BasicSystem<S>& system, double t, const std::vector<typ
 }
 
 template <class S>
-RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double usual_step, double tolerance) {
+RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double next_step, double tolerance) {
   double fastest = largest_coordinate(state.v);
   if (system.loads[jump.load].component >= S::kDim)
     for (const auto& v : state.v) fastest = std::max(fastest, v.template tail<S::kDof - S::kDim>().cwiseAbs().maxCoeff());
   const double resolved = tolerance > kFinest ? tolerance : kFinest * std::pow(kFinest / tolerance, kNarrower);
-  return {tolerance * usual_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / resolved};
+  return {tolerance * next_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / resolved};
 }
 
 template bool leave_sliding(const BasicSystem<Planar>& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding);
-template RampSize ramp_size(const BasicSystem<Planar>& system, const SlidingMode& jump, const BasicState<Planar>& state, double usual_step, double tolerance);
+template RampSize ramp_size(const BasicSystem<Planar>& system, const SlidingMode& jump, const BasicState<Planar>& state, double next_step, double tolerance);
 PINTLE_IN_SPACE(template bool leave_sliding(const BasicSystem<Spatial>& system, double t, const std::vector<Spatial::Motion>& m, std::vector<SlidingMode>& sliding);)
-PINTLE_IN_SPACE(template RampSize ramp_size(const BasicSystem<Spatial>& system, const SlidingMode& jump, const BasicState<Spatial>& state, double usual_step, double tolerance);)
+PINTLE_IN_SPACE(template RampSize ramp_size(const BasicSystem<Spatial>& system, const SlidingMode& jump, const BasicState<Spatial>& state, double next_step, double tolerance);)
 
 template class BasicChatteringDetector<Planar>;
 PINTLE_IN_SPACE(template class BasicChatteringDetector<Spatial>;)

@@ -35,8 +35,9 @@ struct RampSize {
   double time;    // in which a jump's effort moves its argument across the ramp [s]
   double margin;  // smallest width, for the rounding of velocities
 };
+/// `next_step`: the first step after the jump [s].
 template <class S>
-RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double usual_step, double tolerance);
+RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double next_step, double tolerance);
 
 /// Holds `jump` if the efforts of its sides drive its argument back towards it, at the share of both that keeps the argument
 /// constant. `balance()` renews accelerations for what is in `sliding`, `rate()` is then that of the argument, now `margin`.

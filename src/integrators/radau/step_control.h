@@ -30,6 +30,7 @@ class StepControl {
   static constexpr double kLate = 1e-4;      // the same, per unit of the steps' tolerance: all passes cross an event equally late, so their difference does not show it. Without it the break-away of a stuck slider at 1e-7 is 2e-9 s late
   static constexpr double kAboveRounding = 2;     // this multiple of the rounding error met so far is subtracted from the error: rounding differs from step to step
   static constexpr double kAtOnce = 1e-2;    // fraction of the usual step: a jump that is crossed again within it may be held
+  static constexpr double kAfterEvent = 0.3;      // fraction of the usual step: lower limit on the first step after an event, where no error is known
   static constexpr double kMoment = 1e-6;    // fraction of the usual step over which motions are extrapolated to see where accelerations lead
 
   void start(double h) {
@@ -87,7 +88,6 @@ class StepControl {
   static constexpr double kVeryShort = 1e-6;      // fraction of the run: shorter steps that do not grow may have reached a floor of rounding
   static constexpr int kMostAtFloor = 20;         // very short steps in a row, after which one twice as long is tried
   static constexpr double kShort = 0.9;           // fraction of the distance to an event that is only estimated: the next attempt covers this much
-  static constexpr double kAfterEvent = 0.3;      // fraction of the usual step: lower limit on the first step after an event, where no error is known
   // Fraction of the distance to an event: a step limited by its error to less than this is a usual one. For the block in LinearContact half of it rejects 2400
   // steps, twice it 630, this 1100; not a step changes in the worn pins and wheels of the collection. With 1, pins that stick take twice the steps.
   static constexpr double kOnTheWay = 0.01;
@@ -203,6 +203,15 @@ class StepControl {
     return true;
   }
 
+  // The curve of a step across a jump leads to the jump too early, by the same part of the step however often it is tried. For a step that follows one that has ended before
+  // its event without reaching it: the share of the step after which the Taylor series leads to the event, if that is later; otherwise 0.
+  template <class Method>
+  double share_on_taylor_series(Method& method, double h, const SwitchingEvent& event) const {
+    SwitchingEvent later;
+    if (stopped_short_ == 0 || !locate_on_taylor_series(method, h, h, later) || later.function != event.function) return 0;
+    return kShort * later.before > event.before ? later.before : 0;
+  }
+
   // The first event within a step of h. A step that has failed twice may contain a jump.
   template <class Method>
   SwitchingEvent first_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
@@ -286,10 +295,11 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       continue;
     }
     if (event.after < 1) {
+      const double farther = solved && !up_to_event ? share_on_taylor_series(method, h, event) : 0;
       up_to_event = true;
       const bool at_end = solved && left - event.before * h <= last_bits;  // then nothing follows it
       // Keeps the last stage off the event.
-      h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
+      h = farther > 0 ? h * farther : at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
       if (solved) ++counters.rejected;
       continue;
     }

@@ -163,7 +163,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   if (const double late = now - (before + distance); late > 0) compensate_late_crossing(late, event.function);
   if (const auto jump = chattering_.crossed(events_of_, before, motions_before_, now, method().end_motions(), StepControl::kAtOnce * control_.usual)) {
     const double margin = events_of_.margin(*jump, now, method().end_motions());
-    const RampSize size = ramp_size(events_of_, *jump, method().end_state(), control_.usual, method().tolerance_);
+    const RampSize size = ramp_size(events_of_, *jump, method().end_state(), StepControl::kAfterEvent * control_.usual, method().tolerance_);
     const bool held = enter_sliding(*jump, margin, size, method().sliding(), [this] { method().balance_end(); }, [&] { return margin_rate(*jump); });
     if (held && sliding_load_ < 0) sliding_load_ = jump->load;
   }
