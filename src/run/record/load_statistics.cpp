@@ -10,6 +10,7 @@ namespace pintle {
 namespace {
 
 constexpr int kMostHalvings = 10;  // upper limit on halvings of a part of a step; a jump of the loads is never resolved. With 5, the RMS of a pulse of 0.4 ms in a second is right to 4e-4 only
+constexpr int kMostJumps = 4;      // shortest parts that are not resolved, in one part of a step, after which what is left of it is not halved: its samples are noise, not jumps
 
 // At the end of a step, the state before the event: what laws set their states to there belongs to the next step. A step so short that it has passed over a jump
 // of a force or of a driven coordinate has no curve; its ends count.
@@ -111,6 +112,7 @@ void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
   double from = t0;
   for (double i = 1; i <= parts; ++i) {
     const double to = i < parts ? t0 + i / parts * (t1 - t0) : t1;
+    jumps_ = 0;
     add_resolved(stepper, from, to, kMostHalvings);
     from = to;
   }
@@ -120,11 +122,12 @@ template <class S>
 void BasicLoadRecorder<S>::add_resolved(BasicStepper<S>& stepper, double t0, double t1, int halvings) {
   take_samples(stepper, t0, t1);
   const bool resolved = sampling_.resolution <= 0 || is_resolved(stepper.load_scale());
-  if (halvings > 0 && !resolved) {
+  if (halvings > 0 && !resolved && jumps_ < kMostJumps) {
     const double middle = t0 + 0.5 * (t1 - t0);
     add_resolved(stepper, t0, middle, halvings - 1);
     return add_resolved(stepper, middle, t1, halvings - 1);
   }
+  if (!resolved) ++jumps_;
   add_samples(t0, t1 - t0, resolved);
   if (with_heat_ && !wear_.empty()) add_wear(stepper, t0, t1);
 }

@@ -84,6 +84,7 @@ class BasicLoadRecorder {
   };
   std::vector<DrivenLength> lengths_;
   double begin_ = 0, end_ = 0;
+  int jumps_ = 0;  // in this part of a step, as far as it has been added
   BasicWearTally<S> wear_;
   BasicDutyTally<S> duty_;
 };

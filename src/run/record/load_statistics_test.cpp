@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "integrators/dense/force_samples.h"
+#include "integrators/start_states_for_tests.h"
+#include "integrators/stepper.h"
 #include "pintle/simulate.h"
 #include "run/record/sampled_curve.h"
 #include "system/sample_systems_for_tests.h"
@@ -164,6 +168,66 @@ TEST(LoadStatistics, HeatAddsUpToWhatIsLost) {
   for (const LoadSummary& joint : run.joints) heat += joint.heat;
   ASSERT_GT(run.energy.dissipated, 0);
   EXPECT_NEAR(heat, run.energy.dissipated, 1e-3 * run.energy.dissipated);
+}
+
+// A step of 1 s in which the force of every joint is a function of time; counts how often it is asked for.
+class ForcesInAStep final : public Stepper {
+ public:
+  ForcesInAStep(const System& system, const State& start, std::function<double(double)> force)
+      : force_(std::move(force)), previous_(start), end_(start), inside_(start), scale_{} {
+    scale_.body.resize(system.bodies.size(), Planar::Vec::Constant(1));
+    previous_.t = 0;
+    end_.t = 1;
+    put(previous_);
+    put(end_);
+  }
+  void set_max_step(double) override {}
+  void set_load_scale(const LoadScale&) override {}
+  const LoadScale& load_scale() const override { return scale_; }
+  void start(const State&, double) override {}
+  bool step(double) override { return true; }
+  const State& state() const override { return end_; }
+  const State& previous() const override { return previous_; }
+  const State& interpolate(double t) override {
+    ++n_interpolated;
+    inside_.t = t;
+    put(inside_);
+    return inside_;
+  }
+  const Counters& counters() const override { return counters_; }
+  const std::string& failure() const override { return failure_; }
+  int n_interpolated = 0;
+
+ private:
+  void put(State& state) const {
+    for (auto& f : state.force) f = Planar::Vec(force_(state.t), 0, 0);
+  }
+  std::function<double(double)> force_;
+  State previous_, end_, inside_;
+  LoadScale scale_;
+  Counters counters_;
+  std::string failure_;
+};
+
+// Forces that are noise, as those of ideal joints next to a singular position, are not sampled again and again; three jumps in a step are followed to the end.
+TEST(LoadStatistics, FollowJumpsButNotNoise) {
+  const Model model = sample::pendulum(2e8, 3500);
+  const System system = build_system(model);
+  const State start = sample::plain_start(model, system);
+  const auto recorded = [&](const std::function<double(double)>& force, int& n) {
+    ForcesInAStep step(system, start, force);
+    LoadRecorder recorder(system, {.n = CurveGrid::kMost, .resolution = 1e-8}, false, nullptr);
+    recorder.start(step.previous());
+    recorder.add_step(step);
+    n = step.n_interpolated;
+    return recorder.force(0);
+  };
+  int n = 0;
+  const LoadStatistics jumps = recorded([](double t) { return 1.0 + (t > 0.21) + (t > 0.54) - (t > 0.83); }, n);
+  EXPECT_NEAR(jumps.mean, 1 + 0.79 + 0.46 - 0.17, 1e-3);
+  EXPECT_LT(n, 80 * CurveGrid::kMost);
+  recorded([](double t) { return 1 + 1e-3 * std::sin(1e9 * t); }, n);
+  EXPECT_LT(n, 80 * CurveGrid::kMost);
 }
 
 }  // namespace
