@@ -161,12 +161,12 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::check_energy_account(co
     missing_ = missing;
     return Alarm::kNone;
   }
-  describe_open_energy_account(state, missing, within);
+  describe_energy_imbalance(state, missing, within);
   return Alarm::kOpen;
 }
 
 template <class S>
-void BasicEnergyWatch<S>::describe_open_energy_account(const BasicState<S>& state, double missing, double within) {
+void BasicEnergyWatch<S>::describe_energy_imbalance(const BasicState<S>& state, double missing, double within) {
   const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.ideal; });
   const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;

@@ -48,7 +48,7 @@ class BasicEnergyWatch {
   double potential(const BasicState<S>& state);
   double load_work_over_distance(const BasicState<S>& state, double distance);
   double flow(const BasicState<S>& state);
-  void describe_open_energy_account(const BasicState<S>& state, double missing, double within);
+  void describe_energy_imbalance(const BasicState<S>& state, double missing, double within);
   void describe_runaway(const BasicState<S>& state, double energy, const std::string& how);
   const Feeder* largest_feeder() const;
 

@@ -194,7 +194,7 @@ class StepControl {
   // For an event close to the start of a step Taylor's series is better than the step's curve: the far end of the step may lie beyond other events, and its
   // curve need not be the motion of a body at rest. False where the series reaches no event within that time.
   template <class Method>
-  static bool locate_on_taylor_series(Method& method, double within, double h, SwitchingEvent& event) {
+  static bool locate_event_on_taylor_series(Method& method, double within, double h, SwitchingEvent& event) {
     const SwitchingEvent closer = method.locate_event(within, false);
     if (!(closer.after < 1)) return false;
     event = closer;
@@ -203,20 +203,15 @@ class StepControl {
     return true;
   }
 
-  // The curve of a step across a jump leads to the jump too early, by the same part of the step however often it is tried. For a step that follows one that has ended before
-  // its event without reaching it: the share of the step after which the Taylor series leads to the event, if that is later; otherwise 0.
-  template <class Method>
-  double share_on_taylor_series(Method& method, double h, const SwitchingEvent& event) const {
-    SwitchingEvent later;
-    if (stopped_short_ == 0 || !locate_on_taylor_series(method, h, h, later) || later.function != event.function) return 0;
-    return kShort * later.before > event.before ? later.before : 0;
-  }
-
-  // The first event within a step of h. A step that has failed twice may contain a jump.
+  // The first event within a step of h. A step that has failed twice may contain a jump. The curve of a step across a jump leads to the jump too early, by the same part of the
+  // step however often it is tried: after a step that has ended before an event without reaching it, the Taylor series is followed where it leads there later.
   template <class Method>
   SwitchingEvent first_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
     SwitchingEvent event = method.locate_event(h, solved);
-    if (event.before * h < kEventAtStart * usual) locate_on_taylor_series(method, 2 * kEventAtStart * usual, h, event);
+    if (event.before * h < kEventAtStart * usual) locate_event_on_taylor_series(method, 2 * kEventAtStart * usual, h, event);
+    SwitchingEvent later;
+    if (solved && event.after < 1 && stopped_short_ > 0 && locate_event_on_taylor_series(method, h, h, later) && later.function == event.function && kShort * later.before > event.before)
+      event = later;
     const bool left_alone = solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance);
     return left_alone ? SwitchingEvent{} : event;
   }
@@ -236,7 +231,7 @@ class StepControl {
   bool make_taylor_step(Method& method, double h, SwitchingEvent event) const {
     const double ahead = event.before * h;
     if (is_at_start(ahead) || stopped_short_ < kFewShort || !method.motion_is_below_rounding(ahead) || !method.forces_stay_constant(ahead)) return false;
-    if (!locate_on_taylor_series(method, 2 * ahead, h, event)) return false;
+    if (!locate_event_on_taylor_series(method, 2 * ahead, h, event)) return false;
     method.taylor_step(event.before * h);
     return true;
   }
@@ -295,11 +290,10 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       continue;
     }
     if (event.after < 1) {
-      const double farther = solved && !up_to_event ? share_on_taylor_series(method, h, event) : 0;
       up_to_event = true;
       const bool at_end = solved && left - event.before * h <= last_bits;  // then nothing follows it
       // Keeps the last stage off the event.
-      h = farther > 0 ? h * farther : at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
+      h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
       if (solved) ++counters.rejected;
       continue;
     }

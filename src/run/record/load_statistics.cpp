@@ -9,8 +9,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kMostHalvings = 10;  // upper limit on halvings of a part of a step; a jump of the loads is never resolved. With 5, the RMS of a pulse of 0.4 ms in a second is right to 4e-4 only
-constexpr int kMostJumps = 4;      // shortest parts that are not resolved, in one part of a step, after which what is left of it is not halved: its samples are noise, not jumps
+constexpr int kMostHalvings = 10;  // upper limit on halvings of a part of a step, as a jump of the loads is never resolved, and on jumps in it, as more of them are noise. With 5, the RMS of a pulse of 0.4 ms in a second is right to 4e-4 only
 
 // At the end of a step, the state before the event: what laws set their states to there belongs to the next step. A step so short that it has passed over a jump
 // of a force or of a driven coordinate has no curve; its ends count.
@@ -122,7 +121,7 @@ template <class S>
 void BasicLoadRecorder<S>::add_resolved(BasicStepper<S>& stepper, double t0, double t1, int halvings) {
   take_samples(stepper, t0, t1);
   const bool resolved = sampling_.resolution <= 0 || is_resolved(stepper.load_scale());
-  if (halvings > 0 && !resolved && jumps_ < kMostJumps) {
+  if (halvings > 0 && !resolved && jumps_ < kMostHalvings) {
     const double middle = t0 + 0.5 * (t1 - t0);
     add_resolved(stepper, t0, middle, halvings - 1);
     return add_resolved(stepper, middle, t1, halvings - 1);
