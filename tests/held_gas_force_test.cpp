@@ -142,7 +142,7 @@ TEST(HeldGasForce, AirMotorReverses) {
   for (const double tolerance : {1e-3, 1e-4}) {
     model.simulate.tolerance = tolerance;
     const Trajectory run = reference::completed(model);
-    EXPECT_LT(run.counters.steps, 60000u) << tolerance;
+    EXPECT_LT(run.counters.steps, 80000u) << tolerance;
     const LoadSummary& pin = run.joints.at(1);
     EXPECT_NEAR(pin.peak, 19204.5783, pin.error_estimate) << tolerance;  // at a tolerance of 1e-7, which states an error of 5e-5 N
   }
