@@ -7,7 +7,7 @@ FUZZ_SECONDS ?= 60
 CONFIGURE := cmake -G Ninja -S .
 # What is seldom changed and built again, for this machine: many sources of a room are compiled together, for the registers of its processor,
 # and only the plane, which is all that model files know.
-RELEASE   := -DPINTLE_TESTS=OFF -DPINTLE_UNITY=ON -DPINTLE_UNITY_SOURCES=16 -DPINTLE_SPACE=OFF -DPINTLE_REGISTERS=HOST
+RELEASE   := -DPINTLE_TESTS=OFF -DPINTLE_UNITY=ON -DPINTLE_UNITY_SOURCES=40 -DPINTLE_SPACE=OFF -DPINTLE_REGISTERS=HOST
 BUILD     := cmake --build
 CLANG     := clang++-14
 # Line numbers in the sanitizers' traces: a quarter of the time to build.

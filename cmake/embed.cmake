@@ -16,5 +16,7 @@ function(pintle_embed target file symbol)
     DEPENDS ${file} ${PINTLE_EMBED_SCRIPT}
     COMMENT "Embedding ${file}"
     VERBATIM)
+  # A target of its own, so that the sources of `target` do not wait for the libraries to which it is linked.
+  add_custom_target(${target}_${symbol} DEPENDS ${output})
   target_sources(${target} PRIVATE ${output})
 endfunction()
