@@ -14,7 +14,7 @@ function(pintle_sources out folder)
 endfunction()
 
 # What nearly every source of a room reads is parsed once. Three rooms own what is shared by those after them: space, for linalg to joints;
-# system, with the mechanism itself, for integrators to live; results, for what else is quick to build. No source relies on it: the
+# system, with the mechanism itself, for integrators to studies and for live; results, for what else is quick to build. No source relies on it: the
 # studio's kernel is compiled without.
 function(pintle_precompile name quick)
   set(of_space space linalg laws joints)
