@@ -44,10 +44,18 @@ std::string short_number(double number) {
 // " mm", to stand after a number; empty where the key has no unit of its own.
 std::string unit_after_number(const KeySpec& spec) { return spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit; }
 
-std::string range_example(double number, const KeySpec& spec) {
+// A negative number or plain quantity with the other sign, in the unit in which it was given.
+std::string reversed(const Node& node, double number, const std::string& unit) {
+  const std::string* text = node.string();
+  const std::size_t minus = text != nullptr ? text->find('-') : std::string::npos;
+  if (minus == std::string::npos) return short_number(-number) + unit;
+  return text->substr(skip_blanks(*text, minus + 1));
+}
+
+std::string range_example(double number, const Node& node, const KeySpec& spec) {
   const bool needs_positive = spec.minimum && *spec.minimum == 0 && number <= 0;
   const std::string unit = unit_after_number(spec);
-  if (needs_positive && number < 0 && !unit.empty()) return "reverse the sign: \"" + short_number(-number) + unit + "\"";
+  if (needs_positive && number < 0 && !unit.empty()) return "reverse the sign: \"" + reversed(node, number, unit) + "\"";
   const double* usual = spec.fallback ? spec.fallback->real() : nullptr;
   const bool below_one = (spec.maximum && *spec.maximum <= 1) || (usual != nullptr && *usual < 1);
   if (needs_positive) return unit.empty() ? below_one ? "0.01" : "1" : "a small positive value, such as \"1e-3" + unit + "\"";
@@ -142,7 +150,7 @@ std::optional<std::string> RecordReader::wrong_dimension(const Dimension& found,
 bool RecordReader::in_range(double number, const Node& node, const KeySpec& spec, const std::string& path) {
   std::string problem = range_problem(number, spec);
   if (problem.empty()) return true;
-  std::string suggestion = range_example(number, spec);
+  std::string suggestion = range_example(number, node, spec);
   if (!is_plain_quantity(node)) {
     problem += fmt::format(", and is {:.6g}{}", number, unit_after_number(spec));
     suggestion = "check the signs and units of what it is computed from; an angle without a unit is in radians";
