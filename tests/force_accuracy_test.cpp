@@ -1,6 +1,8 @@
 // The promise of a run: every joint force within the tolerance of its peak, against a run a hundred times finer; and an error estimate of the right size.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/constants.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "tests/reference_tables.h"
@@ -114,6 +116,26 @@ TEST(ForceAccuracyOfTheCompressor, AStepWithoutAValueIsRefused) {
 TEST(ForceAccuracyOfTheCompressor, RunsToTheEndAtARoughTolerance) {
   const Trajectory run = simulate(reference::mechanism("slider_crank", {"simulate.tolerance=1e-3"}));
   EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+}
+
+// The torque of a servo is known to a stated error, as a joint force is. A motor whose effort the model gives states none.
+TEST(EffortOfMotors, OfServosIsWithinItsStatedError) {
+  Model model = reference::mechanism("quick_return", {"simulate.duration=0.5", "simulate.output_step=0.005", "simulate.tolerance=1e-4"});
+  const Trajectory run = simulate(model);
+  ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  model.simulate.tolerance = 1e-8;
+  const Trajectory fine = simulate(model);
+  ASSERT_EQ(fine.n_rows(), run.n_rows());
+  double error = 0;
+  for (std::size_t row = 0; row < run.n_rows(); ++row)
+    error = std::max(error, std::abs(reference::value(run, row, "motor.drive.effort") - reference::value(fine, row, "motor.drive.effort")));
+  ASSERT_EQ(run.motors[0].name, "drive");
+  EXPECT_GT(error, 0);
+  EXPECT_GE(run.motors[0].effort_error, error / 3);
+  EXPECT_LE(run.motors[0].effort_error, error * 30);
+  EXPECT_LE(run.motors[0].effort_error, 1e-4 * std::abs(run.motors[0].peak_effort));
+  ASSERT_EQ(run.motors[1].name, "cutting");
+  EXPECT_TRUE(std::isnan(run.motors[1].effort_error));
 }
 
 // Forces that are pure roundoff are not measured relative to themselves.

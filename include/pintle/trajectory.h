@@ -42,6 +42,7 @@ struct MotorSummary {
   std::string name, joint, unit;
   double peak_effort = 0, rms_effort = 0, mean_effort = 0;
   double peak_power = 0, mean_power = 0, work = 0;
+  double effort_error = std::numeric_limits<double>::quiet_NaN();  ///< largest error of the effort over the run [N*m or N]; NaN for an effort that the model gives, and where the run states none
 };
 
 /// The duty of a pin during a run, and what it means for its bearing; the run counts as a load cycle that repeats. A value that cannot be computed, because a size is not stated or the pin does not turn, is

@@ -248,7 +248,7 @@ std::string drive_tables(const Trajectory& trajectory) {
   if (!trajectory.motors.empty()) {
     HtmlTable table(" class=\"sortable\"");
     for (const char* head : {"motor", "joint"}) table.head(head, "", false);
-    for (const char* head : {"peak", "RMS", "mean"}) table.head(head);
+    for (const char* head : {"peak", "RMS", "mean", "error est."}) table.head(head);
     table.head("unit", "", false);
     for (const char* head : {"peak power", "mean power"}) table.head(head, "W");
     table.head("work", "J");
@@ -257,6 +257,7 @@ std::string drive_tables(const Trajectory& trajectory) {
       table.name(escaped_markup(motor.name));
       table.text(escaped_markup(motor.joint));
       for (const double x : {motor.peak_effort, motor.rms_effort, motor.mean_effort}) table.number(x);
+      table.number(motor.effort_error, std::isfinite(motor.effort_error) ? estimate(motor.effort_error) : "–");
       table.text(escaped_markup(printed_unit(motor.unit)));
       for (const double x : {motor.peak_power, motor.mean_power, motor.work}) table.number(x);
       table.end_row();

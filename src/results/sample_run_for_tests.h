@@ -58,7 +58,8 @@ inline Trajectory trajectory(std::size_t n_rows = 51) {
                     .mean_effort = 2,
                     .peak_power = 105,
                     .mean_power = 20,
-                    .work = 10}};
+                    .work = 10,
+                    .effort_error = 3e-4}};
   result.bearings = {{.joint = "O4", .path = 1.2, .swing = 0.6, .mean_speed = 2.4, .equivalent_load = 250, .life = 1000, .wants = {"state static_load_rating (C0) for a static safety"}, .remarks = {}}};
   result.energy = {
       .kinetic_start = 5e6, .kinetic_end = 5e6, .kinetic_peak = 5e6, .dissipated = 0.03, .supplied = 10, .drift = 2e-5};

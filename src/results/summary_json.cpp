@@ -77,6 +77,7 @@ void for_each_entry(Motor& motor, const Visit& visit) requires requires {
   visit("peak_power", motor.peak_power);
   visit("mean_power", motor.mean_power);
   visit("work", motor.work);
+  visit("effort_error", motor.effort_error);
 }
 
 template <class Pin, class Visit>
@@ -247,7 +248,7 @@ void load(const Json& json, T& value) {
 
 // Runs of version 0.1 from before ideal joints lack "unique", and older ones the error of couples; those of 0.2 lack events, horizons, heat and wear.
 bool is_newer(std::string_view key) {
-  constexpr std::array kNewer{"unique", "heat", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter", "bush_depth", "bush_depth_angle"};
+  constexpr std::array kNewer{"unique", "heat", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter", "bush_depth", "bush_depth_angle", "effort_error"};
   return std::any_of(kNewer.begin(), kNewer.end(), [key](const char* newer) { return key == newer; });
 }
 

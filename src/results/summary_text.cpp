@@ -155,14 +155,14 @@ std::string spring_section(const Trajectory& trajectory, const Style& style) {
 std::string motor_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
   for (const char* head : {"motor", "joint"}) table.add_column(head, Align::kLeft);
-  for (const char* head : {"peak", "RMS", "mean"}) table.add_column(head, Align::kNumber);
+  for (const char* head : {"peak", "RMS", "mean", "error est."}) table.add_column(head, Align::kNumber);
   table.add_column("unit", Align::kLeft);
   for (const char* head : {"peak power", "mean power"}) table.add_column(head, Align::kNumber, "W");
   table.add_column("work", Align::kNumber, "J");
   const auto motors = pointers(trajectory.motors);
   for (const MotorSummary* motor : shown(motors, [](const MotorSummary& one) { return std::abs(one.peak_power); }))
     table.add_row({motor->name, motor->joint, engineering(motor->peak_effort), engineering(motor->rms_effort),
-                   engineering(motor->mean_effort), motor->unit, engineering(motor->peak_power),
+                   engineering(motor->mean_effort), std::isfinite(motor->effort_error) ? exponent(motor->effort_error) : "-", motor->unit, engineering(motor->peak_power),
                    engineering(motor->mean_power), engineering(motor->work)});
   return section("Motors", table, style) + rest_line(motors.size());
 }

@@ -357,7 +357,7 @@ class Passes {
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     const BasicLeastError<S> least{least_error(), fine_ringing_, fine_tolerance_};
-    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least, out_.joints);
+    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least, out_);
     if (difference_.force.empty() && context_.shape.checked) leave_errors_open();
     if (chaotic) promise_until_horizons(system_, *coarse_, *fine_, share_while_small_, kPromised * settings_.tolerance, least, chaos_, out_);
   }

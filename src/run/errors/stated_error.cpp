@@ -231,10 +231,18 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
 double share_of_finer(double fall) { return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower)); }
 
 template <class S>
-void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints) {
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, Trajectory& out) {
   const Measures<S> measures(system, difference);
-  for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j)
-    if (system.joints[j].servo < 0) state_error(measures, difference, share, least, j, joints[row++]);
+  for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j) {
+    if (system.joints[j].servo < 0) {
+      state_error(measures, difference, share, least, j, out.joints[row++]);
+      continue;
+    }
+    LoadSummary servo;
+    state_error(measures, difference, share, least, j, servo);
+    for (MotorSummary& motor : out.motors)
+      if (motor.name == system.joints[j].name) motor.effort_error = motor.unit == "N" ? servo.error_estimate : servo.moment_error_estimate;
+  }
 }
 
 template <class S>
@@ -272,9 +280,9 @@ PINTLE_IN_SPACE(template DifferenceCurve force_difference_curve(const BasicSyste
 PINTLE_IN_SPACE(template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
 PINTLE_IN_SPACE(template double largest_ringing_loss(const BasicSystem<Spatial>& system, const PassDifference& difference, BasicRingingLoss<Spatial>& ringing, double tolerance);)
 PINTLE_IN_SPACE(template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);)
-template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
+template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, const BasicLeastError<Planar>& least, Trajectory& out);
 template void state_errors_until(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, const std::vector<double>& until, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
 PINTLE_IN_SPACE(template void state_errors_until(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, const std::vector<double>& until, double share, const BasicLeastError<Spatial>& least, std::vector<LoadSummary>& joints);)
-PINTLE_IN_SPACE(template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, const BasicLeastError<Spatial>& least, std::vector<LoadSummary>& joints);)
+PINTLE_IN_SPACE(template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, const BasicLeastError<Spatial>& least, Trajectory& out);)
 
 }  // namespace pintle

@@ -67,11 +67,11 @@ struct BasicLeastError {
   double tolerance = 0;                // of the steps [-]
 };
 
-/// States the errors of the joints that are not servos: `share` of the difference, and at least `least`. theory/time Eqs. (6.1), (6.12).
+/// States the errors of the joints and of the motors that are servos: `share` of the difference, and at least `least`. theory/time Eqs. (6.1), (6.12).
 template <class S>
-void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints);
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, Trajectory& out);
 
-/// The same from the rows up to each joint's own time [s], where the motion cannot be promised beyond it.
+/// The same for the joints, from the rows up to each joint's own time [s], where the motion cannot be promised beyond it.
 template <class S>
 void state_errors_until(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, const std::vector<double>& until, double share, const BasicLeastError<S>& least,
                         std::vector<LoadSummary>& joints);

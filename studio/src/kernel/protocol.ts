@@ -234,6 +234,8 @@ export interface MotorWork {
   peak_power: number;
   mean_power: number;
   work: number;
+  /** null for an effort that the model gives. */
+  effort_error: number | null;
 }
 
 export interface EnergyAccount {

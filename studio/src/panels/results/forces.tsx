@@ -75,7 +75,10 @@ export function ForcesPanel() {
             {answer.motors.map((one) => (
               <tr key={one.name}>
                 <th scope="row">{one.name}</th>
-                <td className="right">{quantity(one.peak_effort, one.unit)} peak</td>
+                <td className="right">
+                  {quantity(one.peak_effort, one.unit)} peak
+                  {one.effort_error !== null && ` ± ${quantity(one.effort_error, one.unit, 2)}`}
+                </td>
                 <td className="right">{quantity(one.peak_power, "W")} peak</td>
                 <td className="right">{quantity(one.work, "J")} of work</td>
               </tr>
