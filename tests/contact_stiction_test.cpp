@@ -208,5 +208,43 @@ TEST(ContactStiction, ContactsThatDampingHoldsBackAreNoted) {
   EXPECT_NEAR(reference::at_end(run, "joint.c.contact_force"), 209725, 20);  // from two equations of statics and four springs
 }
 
+// A block that is pressed ever harder on a stop, then held there: the stop's spring of 1e6 N/m carries less than the load of 610 N.
+TEST(ContactStiction, StopsThatDampingHoldsBackAreNoted) {
+  constexpr const char* lowered = R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "1 s"
+[ground.markers]
+g = [0, 0]
+[body.b]
+mass = 1
+inertia = 1
+markers.c = [0, 0]
+[joint.g]
+type = "prismatic"
+between = ["ground.g", "b.c"]
+stops = "hard"
+upper_stop = 0
+stop_stiffness = 1e6
+stop_restitution = 0.3
+[force.p]
+on = "b.c"
+force = ["10 N + 600 N*smoothstep(0, 0.5 s, t)", 0]
+)toml";
+  const auto notes = [](const Trajectory& run) { return fmt::format("{}", fmt::join(run.notes, "\n")); };
+  const Trajectory slow = completed(parse_model(lowered));
+  const double depth = reference::at_end(slow, "joint.g.stop_depth");
+  EXPECT_LT(depth, 0.7 * 610e-6);
+  const std::string share = fmt::format("stops that are still settling under their load at the end (g): up to {:.2g} of their force is damping", 1 - depth / 610e-6);
+  EXPECT_NE(notes(slow).find(share), std::string::npos) << notes(slow) << share;
+  EXPECT_NE(notes(slow).find("in an impact at stop_least_speed;"), std::string::npos) << notes(slow);
+  std::string faster = lowered;
+  faster.insert(faster.find("stop_restitution"), "stop_least_speed = 0.1\n");
+  const Trajectory fast = completed(parse_model(faster));
+  EXPECT_EQ(notes(fast).find("still settling"), std::string::npos) << notes(fast);
+  EXPECT_NEAR(reference::at_end(fast, "joint.g.stop_depth"), 610e-6, 1e-6);
+}
+
 }  // namespace
 }  // namespace pintle

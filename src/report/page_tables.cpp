@@ -150,7 +150,7 @@ std::string force_table(const Trajectory& trajectory) {
     table.number(joint.rms);
     table.number(joint.mean);
     table.number(joint.error_estimate, estimated ? estimate(joint.error_estimate) : "–");
-    table.number(joint.relative_error_estimate, (estimated ? estimate(joint.relative_error_estimate) : "–") + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : "") + (late ? " <strong title=\"the peak comes after the horizon\">~</strong>" : ""));
+    table.number(joint.relative_error_estimate, (estimated ? estimate(joint.relative_error_estimate) + (couple_decides(joint) ? " (couple)" : "") : "–") + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : "") + (late ? " <strong title=\"the peak comes after the horizon\">~</strong>" : ""));
     table.end_row();
   }
   std::string html = table.html();

@@ -17,6 +17,11 @@ const LoadSummary* largest_joint(const Trajectory& run) {
   return found == run.joints.end() ? nullptr : &*found;
 }
 
+bool couple_decides(const LoadSummary& joint) {
+  constexpr double kRounding = 1e-6;
+  return joint.relative_error_estimate * joint.peak > (1 + kRounding) * joint.error_estimate;
+}
+
 bool misses_tolerance(const LoadSummary& joint, const Trajectory& run) {
   if (run.of_motion || !(run.tolerance > 0) || !has_force_estimates(run)) return false;
   return !(joint.relative_error_estimate <= run.tolerance);

@@ -95,7 +95,7 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
     later = later || beyond;
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), estimated ? exponent(load.error_estimate) : "-",
-                   estimated ? exponent(load.relative_error_estimate) : "-", (marked ? style.warn + "<" + style.plain : "") + (beyond ? style.warn + "~" + style.plain : "") + (load.unique ? "" : " not unique")});
+                   estimated ? exponent(load.relative_error_estimate) : "-", (marked ? style.warn + "<" + style.plain : "") + (beyond ? style.warn + "~" + style.plain : "") + (estimated && couple_decides(load) ? " (couple)" : "") + (load.unique ? "" : " not unique")});
   }
   std::string text = section("Joint forces (magnitude)", table, style) + rest_line(joints.size());
   if (later) text += fmt::format("  {}~{} the peak comes after the time up to which the force is promised; the error is that of the rows before\n", style.warn, style.plain);
