@@ -78,6 +78,13 @@ Variant read_variant(const CompareOptions& options, const std::string& path, con
   return out;
 }
 
+/// Relative coordinates without an ideal joint would be compared with themselves.
+void demand_difference(const Model& model, const std::string& path, Equations against) {
+  if (against != Equations::kRelative || std::any_of(model.joints.begin(), model.joints.end(), [](const Joint& joint) { return joint.ideal; })) return;
+  const std::string name = model.joints.empty() ? "NAME" : model.joints.front().name;
+  throw CLI::ValidationError("--against relative", fmt::format("no joint of {} is marked ideal, so that all would stay force laws and nothing would be compared. Mark some: --set joint.{}.ideal=true", path, name));
+}
+
 /// Each model unchanged and with each law; with --against also the first one with other equations.
 std::vector<Variant> read_variants(const CompareOptions& options) {
   std::vector<Variant> variants;
@@ -86,6 +93,7 @@ std::vector<Variant> read_variants(const CompareOptions& options) {
     for (const std::string& law : options.laws) variants.push_back(read_variant(options, path, law));
   }
   if (options.against_chosen) {
+    demand_difference(variants.front().model, variants.front().path, equations_of(options));
     variants.push_back(variants.front());
     variants.back().name += ", " + to_text(equations_of(options));
     variants.back().model.simulate.equations = equations_of(options);
@@ -131,6 +139,7 @@ ExitCode compare_variants(const CompareOptions& options) {
 ExitCode compare_equations(CompareOptions options) {
   options.model = options.models.front();
   const Model model = read_model_to_run(options).model;
+  demand_difference(model, options.model, equations_of(options));
   catch_interrupts();
   ProgressReport report(progress_style(options.quiet));
   const Comparison comparison = with_file_name(options.model, [&] { return compare(model, equations_of(options), report.observer()); });

@@ -48,6 +48,13 @@ TEST_F(CompareVerb, JsonAndNoPicture) {
   EXPECT_EQ(nlohmann::json::parse(synonym.out)["against"], "relative") << synonym.error;
 }
 
+TEST_F(CompareVerb, RelativeCoordinatesNeedAnIdealJoint) {
+  const Answer answer = sandbox_.pintle("compare pendulum.toml --plot none --against relative");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_TRUE(holds(answer.error, "no joint of pendulum.toml is marked ideal")) << answer.error;
+  EXPECT_TRUE(holds(answer.error, "--set joint.pin.ideal=true")) << answer.error;
+}
+
 TEST_F(CompareVerb, SeveralModelsSideBySide) {
   sandbox_.write("heavy.toml", kCompared);
   EXPECT_EQ(sandbox_.shell("sed -i 's/1 kg\"/2 kg\"/; s/0.1 kg/0.2 kg/' heavy.toml").exit_code, 0);

@@ -133,5 +133,57 @@ TEST(StateForces, InTheAxesOfTheBodyTheyAreThoseInTheWorldTurnedWithIt) {
   EXPECT_TRUE(report.energy.passed());
 }
 
+// In world axes, whether a force depends on t or reads the state, and whether it is given along the axes of the world or of its body.
+TEST(StateForces, AreColumnsWithTheirPower) {
+  const Trajectory run = reference::completed(parse_model(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "1 s"
+output_step = "0.1 s"
+[body.b]
+mass = 2
+inertia = 0.5
+position = [1, 2]
+angle = "30 deg"
+velocity = [0.3, -0.1]
+spin = 0.7
+markers.c = [0.3, -0.2]
+[force.of_time]
+on = "b.c"
+axes = "body"
+force = ["3 N*t/1 s", 1]
+torque = 0.2
+[force.of_place]
+on = "b.c"
+axes = "body"
+force = ["-2 N/m*b.x", "0.5 N"]
+[force.in_world]
+on = "b.c"
+force = ["-1 N*s/m*b.c.vx", "4 N/m*b.y"]
+torque = "0.1 N*m*s*b.spin"
+)toml"));
+  EXPECT_EQ(run.column("force.of_place.torque"), -1);
+  for (std::size_t row = 0; row < run.n_rows(); ++row) {
+    const auto at = [&](const std::string& column) { return reference::value(run, row, column); };
+    const double angle = at("body.b.angle"), c = std::cos(angle), s = std::sin(angle), spin = at("body.b.spin");
+    const double rx = 0.3 * c + 0.2 * s, ry = 0.3 * s - 0.2 * c;
+    const double vx = at("body.b.vx") - spin * ry, vy = at("body.b.vy") + spin * rx;
+    const auto expect = [&](const std::string& name, double fx, double fy, double torque) {
+      const double scale = 1e-12 * (1 + std::abs(fx) + std::abs(fy));
+      EXPECT_NEAR(at("force." + name + ".fx[world]"), fx, scale) << name << " row " << row;
+      EXPECT_NEAR(at("force." + name + ".fy[world]"), fy, scale) << name << " row " << row;
+      if (torque != 0) {
+        EXPECT_NEAR(at("force." + name + ".torque"), torque, 1e-12) << name << " row " << row;
+      }
+      EXPECT_NEAR(at("force." + name + ".power"), fx * vx + fy * vy + torque * spin, 1e-12 + scale * (std::abs(vx) + std::abs(vy))) << name << " row " << row;
+    };
+    const double t = at("t"), f = -2 * at("body.b.x");
+    expect("of_time", c * 3 * t - s, s * 3 * t + c, 0.2);
+    expect("of_place", c * f - s * 0.5, s * f + c * 0.5, 0);
+    expect("in_world", -vx, 4 * at("body.b.y"), 0.1 * spin);
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -148,6 +148,16 @@ class PageData {
       add_quantity(one, "Power", {{"motor." + motor.name + ".power", "P", ""}});
       add_group(list, std::move(one));
     }
+    for (const Column& column : trajectory_.columns) {
+      constexpr std::string_view kFirst = "force.", kLast = ".fx[world]";
+      if (!column.name.starts_with(kFirst) || !column.name.ends_with(kLast)) continue;
+      const std::string name = column.name.substr(kFirst.size(), column.name.size() - kFirst.size() - kLast.size()), p = "force." + name + ".";
+      Json one = group("Force", name);
+      add_quantity(one, "Force", {{p + "fx[world]", "F", "x"}, {p + "fy[world]", "F", "y"}}, "|F|");
+      add_quantity(one, "Torque", {{p + "torque", "M", ""}});
+      add_quantity(one, "Power", {{p + "power", "P", ""}});
+      add_group(list, std::move(one));
+    }
     Json energy = group("Energy", "");
     add_quantity(energy, "Energy account", {{"energy.kinetic", "kinetic", ""}, {"energy.potential", "potential", ""},
                                     {"energy.dissipated", "dissipated", ""}, {"energy.supplied", "supplied", ""}});

@@ -8,6 +8,7 @@
 #include "joints/belt.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
+#include "system/load_displacement.h"
 #include "system/pose_joint.h"
 
 namespace pintle {
@@ -41,6 +42,7 @@ bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 Recorder::Recorder(const Model& model, const System& system, Recorded what)
     : ForceRecorder(system, what), model_(model), recording_(choose_recording(model, system)) {
   find_drives();
+  find_forces();
 }
 
 // Servos and efforts are in the system in the order of the motors.
@@ -52,6 +54,17 @@ void Recorder::find_drives() {
   }
   for (std::size_t i = 0; i < system_.loads.size(); ++i)
     if (system_.loads[i].kind != LoadKind::kEffort) springs_.push_back(static_cast<int>(i));
+}
+
+void Recorder::find_forces() {
+  for (const AppliedForce& force : model_.forces) {
+    Applied& found = applied_.emplace_back();
+    found.has_torque = !force.torque.variables().empty() || force.torque.value({}) != 0;
+    for (std::size_t i = 0; i < system_.applied.size(); ++i)
+      if (system_.applied[i].name == force.name) found.functions = static_cast<int>(i);
+    for (std::size_t i = 0; i < system_.loads.size(); ++i)
+      if (const LoadData& load = system_.loads[i]; load.applied && load.name == force.name) found.load[static_cast<std::size_t>(load.component)] = static_cast<int>(i);
+  }
 }
 
 double Recorder::effort_of(const Drive& drive, const State& state, const std::vector<S::Motion>& m) const {
@@ -148,6 +161,14 @@ std::vector<Column> Recorder::columns() const {
     column("motor." + motor.name + ".effort", linear ? "N" : "N*m", "what motor " + motor.name + " exerts on the second body of joint " + motor.joint);
     column("motor." + motor.name + ".power", "W", "power that motor " + motor.name + " delivers");
   }
+  for (std::size_t i = 0; i < applied_.size(); ++i) {
+    const AppliedForce& force = model_.forces[i];
+    const std::string p = "force." + force.name + ".", what = " of force " + force.name + " on " + force.on.body;
+    column(p + "fx[world]", "N", "component" + what + ", world x");
+    column(p + "fy[world]", "N", "component" + what + ", world y");
+    if (applied_[i].has_torque) column(p + "torque", "N*m", "torque" + what);
+    column(p + "power", "W", "power that force " + force.name + " delivers");
+  }
   column("energy.kinetic", "J", "kinetic energy");
   column("energy.potential", "J", "potential energy of gravity, springs and joints");
   column("energy.dissipated", "J", "dissipated in joints and dampers since the start");
@@ -181,6 +202,35 @@ void Recorder::put_joint(int j, const S::Vec& load) {
     if (!joint.cam->flat()) put(at.pressure_angle);
   }
   if (joint.edge) put(joint.edge->nearest({pose.z[0], pose.z[1]}));
+}
+
+void Recorder::put_force(const Applied& force, const State& state) {
+  std::array<double, 3> along{};
+  double power = 0;
+  int body = kGround;
+  bool body_axes = false;
+  if (force.functions >= 0) {
+    const AppliedData& given = system_.applied[force.functions];
+    const std::array<double, 1> time{state.t};
+    for (std::size_t k = 0; k < 3; ++k) along[k] = given.functions()[k]->value(std::span(time).first(given.functions()[k]->variables().size()));
+    power = system_.power_of(given, state.t, m_);
+    body = given.body;
+    body_axes = given.body_axes;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (force.load[k] < 0) continue;
+    const LoadData& load = system_.loads[force.load[k]];
+    along[k] = system_.load_effort(load, state.t, m_, state.sliding);
+    power += system_.work_of(load, state.t, m_, state.sliding).supplied;
+    if (k == 2) continue;
+    body_axes = acts_in_body_axes(load);
+    body = body_axes ? load.at.a : load.at.b;
+  }
+  const S::Point f = body_axes ? m_[body].turned({along[0], along[1]}) : S::Point(along[0], along[1]);
+  put(f[0]);
+  put(f[1]);
+  if (force.has_torque) put(along[2]);
+  put(power);
 }
 
 void Recorder::add(const State& state) {
@@ -217,6 +267,7 @@ void Recorder::put_row(const State& state) {
     put(effort);
     put(power_of(drive, effort, m_));
   }
+  for (const Applied& force : applied_) put_force(force, state);
   const Energies& energies = energies_.back();
   put(energies.kinetic);
   put(energies.potential);

@@ -1,6 +1,7 @@
 // Records states of the plane as rows of a trajectory, and summarises the load of every joint, spring and motor.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "pintle/model.h"
@@ -26,8 +27,15 @@ class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
   struct Drive {
     int joint, load;
   };
+  // What an applied force of the model is in the system: functions of time, or a load along each of its components; -1: none.
+  struct Applied {
+    int functions = -1;
+    std::array<int, 3> load{-1, -1, -1};
+    bool has_torque = false;
+  };
   int component(const Drive& d) const { return d.joint >= 0 ? system_.joints[d.joint].servo : system_.loads[d.load].component; }
   void find_drives();
+  void find_forces();
   // Forces of springs, then effort and power of each motor.
   const Signals* signals() const override { return this; }
   int n_signals() const override { return static_cast<int>(springs_.size() + 2 * drives_.size()); }
@@ -38,10 +46,12 @@ class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
   void put(double x) { values_.push_back(x); }
   void put_row(const State& state);
   void put_joint(int j, const Planar::Vec& load);
+  void put_force(const Applied& force, const State& state);
 
   const Model& model_;
   std::vector<Drive> drives_;
   std::vector<int> springs_;  // among the loads, in the order of the model
+  std::vector<Applied> applied_;
   Recording recording_;
   std::vector<double> values_;
 };

@@ -29,7 +29,7 @@ namespace {
 void demand_no_states(const System& system) {
   for (const JointData& joint : system.joints)
     if (!joint.ideal && !joint.law.feeds() && joint.law.n_states() > 0)
-      throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not integrate the states of its law, such as the approach speed of a contact: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\" (in compare: --against relative), which keeps the joints of a tree ideal.", joint.name));
+      throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not integrate the states of its law, such as the approach speed of a contact: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\" (in compare: --against relative), in which joints marked ideal = true are ideal and all others force laws.", joint.name));
 }
 
 // Ideal joints carry no preload: their loops are closed exactly. Joints that stay force laws begin with the deflections that carry their loads.
