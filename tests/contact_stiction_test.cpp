@@ -233,7 +233,7 @@ on = "b.c"
 force = ["10 N + 600 N*smoothstep(0, 0.5 s, t)", 0]
 )toml";
   const auto notes = [](const Trajectory& run) { return fmt::format("{}", fmt::join(run.notes, "\n")); };
-  const Trajectory slow = completed(parse_model(lowered));
+  const Trajectory slow = completed(parse_model(lowered, "lowered.toml"));
   const double depth = reference::at_end(slow, "joint.g.stop_depth");
   EXPECT_LT(depth, 0.7 * 610e-6);
   const std::string share = fmt::format("stops that are still settling under their load at the end (g): up to {:.2g} of their force is damping", 1 - depth / 610e-6);
@@ -241,7 +241,7 @@ force = ["10 N + 600 N*smoothstep(0, 0.5 s, t)", 0]
   EXPECT_NE(notes(slow).find("in an impact at stop_least_speed;"), std::string::npos) << notes(slow);
   std::string faster = lowered;
   faster.insert(faster.find("stop_restitution"), "stop_least_speed = 0.1\n");
-  const Trajectory fast = completed(parse_model(faster));
+  const Trajectory fast = completed(parse_model(faster, "lowered.toml"));
   EXPECT_EQ(notes(fast).find("still settling"), std::string::npos) << notes(fast);
   EXPECT_NEAR(reference::at_end(fast, "joint.g.stop_depth"), 610e-6, 1e-6);
 }

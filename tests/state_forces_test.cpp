@@ -162,7 +162,7 @@ force = ["-2 N/m*b.x", "0.5 N"]
 on = "b.c"
 force = ["-1 N*s/m*b.c.vx", "4 N/m*b.y"]
 torque = "0.1 N*m*s*b.spin"
-)toml"));
+)toml", "forces.toml"));
   EXPECT_EQ(run.column("force.of_place.torque"), -1);
   for (std::size_t row = 0; row < run.n_rows(); ++row) {
     const auto at = [&](const std::string& column) { return reference::value(run, row, column); };
