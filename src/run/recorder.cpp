@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string_view>
+#include <unordered_map>
 
 #include "joints/belt.h"
 #include "joints/cam_profile.h"
@@ -57,14 +60,14 @@ void Recorder::find_drives() {
 }
 
 void Recorder::find_forces() {
+  std::unordered_map<std::string_view, std::size_t> index;
   for (const AppliedForce& force : model_.forces) {
-    Applied& found = applied_.emplace_back();
-    found.has_torque = !force.torque.variables().empty() || force.torque.value({}) != 0;
-    for (std::size_t i = 0; i < system_.applied.size(); ++i)
-      if (system_.applied[i].name == force.name) found.functions = static_cast<int>(i);
-    for (std::size_t i = 0; i < system_.loads.size(); ++i)
-      if (const LoadData& load = system_.loads[i]; load.applied && load.name == force.name) found.load[static_cast<std::size_t>(load.component)] = static_cast<int>(i);
+    index.emplace(force.name, applied_.size());
+    applied_.emplace_back().has_torque = !force.torque.variables().empty() || force.torque.value({}) != 0;
   }
+  for (std::size_t i = 0; i < system_.applied.size(); ++i) applied_[index.at(system_.applied[i].name)].functions = static_cast<int>(i);
+  for (std::size_t i = 0; i < system_.loads.size(); ++i)
+    if (const LoadData& load = system_.loads[i]; load.applied) applied_[index.at(load.name)].load[static_cast<std::size_t>(load.component)] = static_cast<int>(i);
 }
 
 double Recorder::effort_of(const Drive& drive, const State& state, const std::vector<S::Motion>& m) const {

@@ -27,7 +27,7 @@ class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
   struct Drive {
     int joint, load;
   };
-  // What an applied force of the model is in the system: functions of time, or a load along each of its components; -1: none.
+  // An applied force of the model, by its index in the system: functions of time, or a load along each of its components; -1: none.
   struct Applied {
     int functions = -1;
     std::array<int, 3> load{-1, -1, -1};
