@@ -1,6 +1,7 @@
 #include "results/force_quality.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace pintle {
 
@@ -18,8 +19,8 @@ const LoadSummary* largest_joint(const Trajectory& run) {
 }
 
 bool couple_decides(const LoadSummary& joint) {
-  constexpr double kRounding = 1e-6;
-  return joint.relative_error_estimate * joint.peak > (1 + kRounding) * joint.error_estimate;
+  constexpr double last_bits = 8 * std::numeric_limits<double>::epsilon();
+  return joint.relative_error_estimate * joint.peak > (1 + last_bits) * joint.error_estimate;
 }
 
 bool misses_tolerance(const LoadSummary& joint, const Trajectory& run) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <unordered_map>
 
 #include "joints/belt.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
+#include "system/applied_wrench.h"
 #include "system/load_displacement.h"
 #include "system/pose_joint.h"
 
@@ -45,7 +45,7 @@ bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 Recorder::Recorder(const Model& model, const System& system, Recorded what)
     : ForceRecorder(system, what), model_(model), recording_(choose_recording(model, system)) {
   find_drives();
-  find_forces();
+  index_applied_forces();
 }
 
 // Servos and efforts are in the system in the order of the motors.
@@ -59,7 +59,7 @@ void Recorder::find_drives() {
     if (system_.loads[i].kind != LoadKind::kEffort) springs_.push_back(static_cast<int>(i));
 }
 
-void Recorder::find_forces() {
+void Recorder::index_applied_forces() {
   std::unordered_map<std::string_view, std::size_t> index;
   for (const AppliedForce& force : model_.forces) {
     index.emplace(force.name, applied_.size());
@@ -207,32 +207,32 @@ void Recorder::put_joint(int j, const S::Vec& load) {
   if (joint.edge) put(joint.edge->nearest({pose.z[0], pose.z[1]}));
 }
 
-void Recorder::put_force(const Applied& force, const State& state) {
-  std::array<double, 3> along{};
-  double power = 0;
-  int body = kGround;
-  bool body_axes = false;
+void Recorder::put_applied_force(const Applied& force, const State& state) {
+  S::Point f(0, 0);
+  double torque = 0, power = 0;
   if (force.functions >= 0) {
     const AppliedData& given = system_.applied[force.functions];
-    const std::array<double, 1> time{state.t};
-    for (std::size_t k = 0; k < 3; ++k) along[k] = given.functions()[k]->value(std::span(time).first(given.functions()[k]->variables().size()));
+    const PlanarWrench w = wrench(given, state.t, m_[given.body]);
+    f = w.force;
+    torque = w.couple;
     power = system_.power_of(given, state.t, m_);
-    body = given.body;
-    body_axes = given.body_axes;
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (force.load[k] < 0) continue;
-    const LoadData& load = system_.loads[force.load[k]];
-    along[k] = system_.load_effort(load, state.t, m_, state.sliding);
+  for (int k = 0; k < 3; ++k) {
+    const int at = force.load[static_cast<std::size_t>(k)];
+    if (at < 0) continue;
+    const LoadData& load = system_.loads[at];
+    const double effort = system_.load_effort(load, state.t, m_, state.sliding);
     power += system_.work_of(load, state.t, m_, state.sliding).supplied;
-    if (k == 2) continue;
-    body_axes = acts_in_body_axes(load);
-    body = body_axes ? load.at.a : load.at.b;
+    if (k == 2) {
+      torque = effort;
+      continue;
+    }
+    const S::Point along = effort * S::Point::Unit(k);
+    f += acts_in_body_axes(load) ? m_[load.at.a].turned(along) : along;
   }
-  const S::Point f = body_axes ? m_[body].turned({along[0], along[1]}) : S::Point(along[0], along[1]);
   put(f[0]);
   put(f[1]);
-  if (force.has_torque) put(along[2]);
+  if (force.has_torque) put(torque);
   put(power);
 }
 
@@ -270,7 +270,7 @@ void Recorder::put_row(const State& state) {
     put(effort);
     put(power_of(drive, effort, m_));
   }
-  for (const Applied& force : applied_) put_force(force, state);
+  for (const Applied& force : applied_) put_applied_force(force, state);
   const Energies& energies = energies_.back();
   put(energies.kinetic);
   put(energies.potential);

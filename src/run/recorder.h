@@ -35,7 +35,7 @@ class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
   };
   int component(const Drive& d) const { return d.joint >= 0 ? system_.joints[d.joint].servo : system_.loads[d.load].component; }
   void find_drives();
-  void find_forces();
+  void index_applied_forces();
   // Forces of springs, then effort and power of each motor.
   const Signals* signals() const override { return this; }
   int n_signals() const override { return static_cast<int>(springs_.size() + 2 * drives_.size()); }
@@ -46,7 +46,7 @@ class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
   void put(double x) { values_.push_back(x); }
   void put_row(const State& state);
   void put_joint(int j, const Planar::Vec& load);
-  void put_force(const Applied& force, const State& state);
+  void put_applied_force(const Applied& force, const State& state);
 
   const Model& model_;
   std::vector<Drive> drives_;

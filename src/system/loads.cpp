@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "system/applied_wrench.h"
 #include "system/load_displacement.h"
 
 namespace pintle {
@@ -29,31 +30,6 @@ double value_of(const BasicSystem<S>& system, const BasicSignal<S>& signal, doub
   if (signal.is_time) return t;
   const typename S::RelativePose pose = system.pose(signal.at, m);
   return signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
-}
-
-// An applied force in world axes, at time t.
-struct PlanarWrench {
-  Planar::Point force;
-  double couple;
-};
-struct SpatialWrench {
-  Spatial::Point force, couple;
-};
-double value_at(const Expression& e, double t) {
-  const std::array<double, 1> time{t};
-  return e.value(std::span(time).first(e.variables().size()));
-}
-PlanarWrench wrench(const BasicAppliedData<Planar>& load, double t, const Planar::Motion& body) {
-  const Planar::Point f(value_at(load.fx, t), value_at(load.fy, t));
-  return {load.body_axes ? body.turned(f) : f, value_at(load.torque, t)};
-}
-[[maybe_unused]] SpatialWrench wrench(const BasicAppliedData<Spatial>& load, double t, const Spatial::Motion& body) {
-  Spatial::Point f, couple;
-  for (int k = 0; k < 3; ++k) {
-    f[k] = value_at(load.force[k], t);
-    couple[k] = value_at(load.torque[k], t);
-  }
-  return load.body_axes ? SpatialWrench{body.turned(f), body.turned(couple)} : SpatialWrench{f, couple};
 }
 
 double power_on(const Planar::Motion& body, const PlanarWrench& w, const Planar::Point& arm) {
