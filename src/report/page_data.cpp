@@ -197,25 +197,9 @@ class PageData {
     return list;
   }
 
-  /// Applied forces in world axes, row by row.
-  Json loads() const {
-    Json list = Json::array();
-    for (const LoadArrow& load : scene_.loads) {
-      std::vector<double> fx, fy;
-      for (const std::size_t row : content_.rows) {
-        const Pose pose = load.at.body == kWorld ? Pose{} : pose_of(scene_.bodies[static_cast<std::size_t>(load.at.body)], trajectory_, row);
-        const Vec2 force = force_of(load, trajectory_.at(row, 0), pose);
-        fx.push_back(force[0]);
-        fy.push_back(force[1]);
-      }
-      list.push_back({{"name", load.name}, {"at", anchor(load.at)}, {"fx", base64(fx)}, {"fy", base64(fy)}});
-    }
-    return list;
-  }
-
   Json scene() const {
     static constexpr std::array<const char*, 4> kForms{"bar", "line", "area", "circle"};
-    Json bodies = Json::array(), shapes = Json::array(), connectors = Json::array(), arrows = Json::array();
+    Json bodies = Json::array(), shapes = Json::array(), connectors = Json::array(), arrows = Json::array(), loads = Json::array();
     for (const BodyTrack& body : scene_.bodies)
       bodies.push_back({{"name", body.name}, {"x", kept(body.x)}, {"y", kept(body.y)}, {"angle", kept(body.angle)}});
     for (const Shape& shape : scene_.shapes) {
@@ -240,9 +224,10 @@ class PageData {
     }
     for (const ForceArrow& arrow : scene_.arrows)
       arrows.push_back({{"joint", arrow.joint}, {"on", arrow.on}, {"at", spot(arrow.at)}, {"fx", kept(arrow.fx)}, {"fy", kept(arrow.fy)}});
+    for (const LoadArrow& load : scene_.loads) loads.push_back({{"name", load.name}, {"at", anchor(load.at)}, {"fx", kept(load.fx)}, {"fy", kept(load.fy)}});
     return {{"time_decimals", scene_.time_decimals}, {"box", {scene_.box.low[0], scene_.box.low[1], scene_.box.high[0], scene_.box.high[1]}},
             {"unit", scene_.unit}, {"arrow_length", scene_.arrow_length}, {"arrow_force", scene_.arrow_force}, {"arrow_most", Scene::kLongestArrow},
-            {"bodies", bodies}, {"shapes", shapes}, {"connectors", connectors}, {"arrows", arrows}, {"loads", loads()},
+            {"bodies", bodies}, {"shapes", shapes}, {"connectors", connectors}, {"arrows", arrows}, {"loads", loads},
             {"points", named(scene_.points)}, {"labels", named(scene_.labels)}};
   }
 

@@ -21,12 +21,6 @@ Pose pose_of(const BodyTrack& track, const Trajectory& trajectory, std::size_t r
           std::cos(angle), std::sin(angle)};
 }
 
-Vec2 force_of(const LoadArrow& load, double t, const Pose& pose) {
-  const std::array<double, 1> time{t};
-  const Vec2 force{load.force[0].value(time), load.force[1].value(time)};
-  return load.body_axes ? pose.turned(force) : force;
-}
-
 Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t) {
   const std::size_t n = trajectory.n_rows();
   std::size_t low = 0, high = n;  // low: the last row that is not after t
@@ -51,7 +45,7 @@ Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t) {
   for (const ForceArrow& arrow : scene.arrows)
     instant.forces.push_back({between(trajectory, low, share, arrow.fx), between(trajectory, low, share, arrow.fy)});
   for (const LoadArrow& load : scene.loads)
-    instant.loads.push_back(force_of(load, instant.t, instant.pose(load.at.body)));
+    instant.loads.push_back({between(trajectory, low, share, load.fx), between(trajectory, low, share, load.fy)});
   return instant;
 }
 

@@ -41,9 +41,6 @@ struct Instant {
   Vec2 place(const MovingPoint& spot) const { return place_of(spot, pose(spot.at.body), pose(spot.toward.body)); }
 };
 
-/// The force in world axes [N] on a body that is at `pose` at time t.
-Vec2 force_of(const LoadArrow& load, double t, const Pose& pose);
-
 /// At time t [s], interpolated linearly between the neighbouring rows. The trajectory has at least one row.
 Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t);
 

@@ -230,15 +230,19 @@ void SceneMaker::add_arrows() {
     const auto first = find(joint.first), second = find(joint.second);
     if (joint.type == "revolute" && first && second) scene_.pins.push_back({joint.name, *first, *second, joint.first, joint.second});
   }
-  for (const AppliedForce& load : model_.forces)
-    if (const auto at = find(load.on)) scene_.loads.push_back({load.name, *at, load.force, load.body_axes});
+  for (const AppliedForce& load : model_.forces) {
+    const auto at = find(load.on);
+    const std::string p = "force." + load.name + ".";
+    const int fx = columns_.find(p + "fx[world]"), fy = columns_.find(p + "fy[world]");
+    if (at && fx >= 0 && fy >= 0) scene_.loads.push_back({load.name, *at, fx, fy});
+  }
 }
 
 double SceneMaker::largest_load() const {
   double largest = 0;
   for (const std::size_t row : sample_rows(400))
     for (const LoadArrow& load : scene_.loads) {
-      const Vec2 f = force_of(load, trajectory_.at(row, 0), pose(load.at.body, row));
+      const Vec2 f = vector_at(row, load.fx, load.fy);
       if (const double size = std::hypot(f[0], f[1]); std::isfinite(size)) largest = std::max(largest, size);
     }
   return largest;
@@ -261,12 +265,8 @@ void SceneMaker::scale_arrows() {
     if (std::isfinite(force) && force > 0) scene_.box.cover({at[0] + size * f[0] / force, at[1] + size * f[1] / force});
   };
   for (const std::size_t row : sample_rows(400)) {
-    for (const ForceArrow& arrow : scene_.arrows)
-      show_tip(place(arrow.at, row), {trajectory_.at(row, static_cast<std::size_t>(arrow.fx)), trajectory_.at(row, static_cast<std::size_t>(arrow.fy))});
-    for (const LoadArrow& load : scene_.loads) {
-      const Pose at = pose(load.at.body, row);
-      show_tip(at.world(load.at.point), force_of(load, trajectory_.at(row, 0), at));
-    }
+    for (const ForceArrow& arrow : scene_.arrows) show_tip(place(arrow.at, row), vector_at(row, arrow.fx, arrow.fy));
+    for (const LoadArrow& load : scene_.loads) show_tip(place(MovingPoint{load.at}, row), vector_at(row, load.fx, load.fy));
   }
 }
 

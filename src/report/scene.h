@@ -79,12 +79,11 @@ struct PinMarkers {
   MarkerRef first_marker, second_marker;
 };
 
-/// An applied force, a function of time.
+/// An applied force, as columns of the trajectory.
 struct LoadArrow {
   std::string name;
   Anchor at;
-  std::array<Expression, 2> force;  ///< of t [N]
-  bool body_axes = false;
+  int fx = -1, fy = -1;
 };
 
 /// Columns of a body's pose; -1: not recorded by the run, and the body is not drawn.

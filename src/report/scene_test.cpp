@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pintle/read_model.h"
+#include "pintle/simulate.h"
 #include "report/drawn_run_for_tests.h"
 #include "report/outline.h"
 #include "report/poses.h"
@@ -262,18 +264,44 @@ TEST(Scene, SpringsRodsAndRopesAreConnectors) {
   EXPECT_EQ(pendulum.connectors[1].paint, Paint::kRod);
 }
 
-TEST(Scene, AppliedForcesTurnWithTheirBody) {
-  auto [model, run] = run_of_mechanism("pendulum");
-  model.forces.push_back({"push", {"rod", model.bodies[0].markers[0].name}, {Expression::constant(3), Expression::constant(4)}, Expression(), true});
-  const Scene scene = make_scene(model, run.trajectory);
-  ASSERT_EQ(scene.loads.size(), 1u);
-  const auto angle = static_cast<std::size_t>(run.trajectory.column("body.rod.angle"));
-  for (const std::size_t row : {std::size_t{0}, std::size_t{100}}) {
-    const Vec2 force = instant_at(scene, run.trajectory, run.trajectory.at(row, 0)).loads[0];
-    const double a = run.trajectory.at(row, angle);
-    EXPECT_NEAR(force[0], 3 * std::cos(a) - 4 * std::sin(a), 1e-12);
-    EXPECT_NEAR(force[1], 3 * std::sin(a) + 4 * std::cos(a), 1e-12);
+TEST(Scene, AppliedForcesAreDrawnAsTheyAct) {
+  const Model model = parse_model(R"toml(
+format = 1
+[simulate]
+duration = "1 s"
+output_step = "0.1 s"
+[ground.markers]
+O = [0, 0]
+[body.rod]
+mass = 1
+inertia = 0.1
+angle = "-30 deg"
+markers = { A = [-0.5, 0], B = [0.5, 0] }
+[joint.A]
+type = "revolute"
+first = "ground.O"
+second = "rod.A"
+[force.push]
+on = "rod.B"
+axes = "body"
+force = [3, "4 N*t/1 s"]
+[force.drag]
+on = "rod.B"
+force = ["-2 N*s/m*rod.B.vx", 0]
+)toml", "loads.toml");
+  const Trajectory run = simulate(model);
+  const Scene scene = make_scene(model, run);
+  ASSERT_EQ(scene.loads.size(), 2u);
+  const auto at = [&](std::size_t row, const char* name) { return run.at(row, static_cast<std::size_t>(run.column(name))); };
+  for (std::size_t row = 0; row < run.n_rows(); ++row) {
+    const double t = run.at(row, 0), a = at(row, "body.rod.angle");
+    const std::vector<Vec2> forces = instant_at(scene, run, t).loads;
+    EXPECT_NEAR(forces[0][0], 3 * std::cos(a) - 4 * t * std::sin(a), 1e-12);
+    EXPECT_NEAR(forces[0][1], 3 * std::sin(a) + 4 * t * std::cos(a), 1e-12);
+    EXPECT_NEAR(forces[1][0], -2 * (at(row, "body.rod.vx") - 0.5 * std::sin(a) * at(row, "body.rod.spin")), 1e-12);
   }
+  EXPECT_LT(std::abs(instant_at(scene, run, 0).loads[1][0]), 1e-12);
+  EXPECT_GT(std::abs(instant_at(scene, run, 0.5).loads[1][0]), 0.1);
 }
 
 TEST(Scene, WhatWasNotRecordedIsNotDrawn) {

@@ -297,7 +297,7 @@ class Stage {
       const k = Math.min(size, most) / Math.hypot(fx, fy), [x, y] = this.toPixels(this.placeOf(at, poses));
       this.drawArrow(g, x, y, x + k * fx, y - k * fy, size > most, colour);
     };
-    for (const load of run.scene.loads) show(load.at, load.fx, load.fy, "load");
+    for (const load of run.scene.loads) show(load.at, run.columns[load.fx].values, run.columns[load.fy].values, "load");
     for (const arrow of arrows)
       if (arrow.fx >= 0 && arrow.fy >= 0) show(arrow.at, run.columns[arrow.fx].values, run.columns[arrow.fy].values, "force");
     const shown = force / (this.arrowFactor * Math.sqrt(zoom)), power = 10 ** Math.floor(Math.log10(shown)), digit = shown / power;

@@ -6,7 +6,6 @@ for (const column of run.columns) {
   column.values = decoded(column.data);
   column.data = null;
 }
-for (const load of run.scene.loads) [load.fx, load.fy] = [decoded(load.fx), decoded(load.fy)];
 const times = run.columns[0].values;
 
 /** The value between two rows; `place` is the clock's. */
