@@ -279,8 +279,7 @@ angle = "-30 deg"
 markers = { A = [-0.5, 0], B = [0.5, 0] }
 [joint.A]
 type = "revolute"
-first = "ground.O"
-second = "rod.A"
+between = ["ground.O", "rod.A"]
 [force.push]
 on = "rod.B"
 axes = "body"
