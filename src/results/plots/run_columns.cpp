@@ -1,20 +1,41 @@
 #include "results/plots/run_columns.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "base/text/did_you_mean.h"
 #include "results/plots/plot_ticks.h"
 
 namespace pintle {
+namespace {
+
+// Of many names, those that share the most leading parts with the word: for "joint.A.fz" those that begin with "joint.A.".
+std::vector<std::string> closest_family(const std::string& word, const std::vector<std::string>& names) {
+  std::vector<std::string> family = names;
+  for (std::size_t dot = word.find('.'); dot != std::string::npos; dot = word.find('.', dot + 1)) {
+    const std::string prefix = word.substr(0, dot + 1);
+    std::vector<std::string> closer;
+    std::ranges::copy_if(family, std::back_inserter(closer), [&](const std::string& name) { return name.starts_with(prefix); });
+    if (closer.empty()) break;
+    family = std::move(closer);
+  }
+  return family;
+}
+
+}  // namespace
 
 std::string hint_of(const std::string& word, const std::vector<std::string>& words, std::string_view list_name) {
+  constexpr std::size_t kMost = 30;
   if (const auto meant = did_you_mean(word, words)) return fmt::format("Did you mean \"{}\"?", *meant);
-  std::string list;
-  for (const std::string& entry : words) list += (list.empty() ? "" : ", ") + entry;
-  return fmt::format("{}: {}.", list_name, list.empty() ? "none" : list);
+  const std::vector<std::string> family = closest_family(word, words);
+  const std::span<const std::string> shown = std::span(family).first(std::min(kMost, family.size()));
+  const std::string rest = family.size() > kMost ? fmt::format(", and {} more", family.size() - kMost) : "";
+  return fmt::format("{}{}: {}{}.", list_name, family.size() < words.size() ? " of this kind" : "", family.empty() ? "none" : fmt::format("{}", fmt::join(shown, ", ")), rest);
 }
 
 std::vector<double> values_of(const Trajectory& trajectory, int column) {
