@@ -77,6 +77,7 @@ class Passes {
     const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
     interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
     if (!complete && fine_) return false;
+    peaks_before_ = std::exchange(coarse_peaks_, std::exchange(fine_peaks_, peaks_of(recorder->loads(), system_.joints.size())));
     coarse_ = std::move(fine_);
     if (coarse_) coarse_->keep_forces_only();
     fine_ = std::move(recorder);
@@ -230,7 +231,7 @@ class Passes {
     // Other methods on free bodies step over kinks, near which their curves are only approximate.
     if ((choice_.method != "radau" && !has_constraints(choice_.equations)) || coarse.t.back() != fine.t.back()) return;
     include_peaks(fine_->loads(), kNegligible, difference_);
-    include_peak_differences(coarse_->loads(), fine_->loads(), difference_);
+    include_peak_differences(peaks_before_, coarse_peaks_, fine_peaks_, share_, difference_);
   }
 
   // Decides whether another pass is made, and sets its tolerance.
@@ -451,6 +452,7 @@ class Passes {
   double fine_tolerance_ = 0, coarse_tolerance_ = 0, coarse_before_ = 0;  // of the last two passes; of the coarser one in the previous comparison
   // Of the last two passes.
   PassDifference difference_;
+  JointPeaks peaks_before_, coarse_peaks_, fine_peaks_;  // of the last three passes
   std::vector<double> relative_difference_;  // of each joint
   double share_while_small_ = 1;                      // share_ of differences that are still far from saturation
   double share_ = 1, error_ = 0, error_before_ = 0;  // of the last two comparisons

@@ -141,12 +141,25 @@ void include_peaks(const BasicLoadRecorder<S>& fine, double part, PassDifference
 }
 
 template <class S>
-void include_peak_differences(const BasicLoadRecorder<S>& coarse, const BasicLoadRecorder<S>& fine, PassDifference& c) {
-  for (std::size_t j = 0; j < c.force.size(); ++j) {
-    const int joint = static_cast<int>(j);
-    c.force[j] = std::max(c.force[j], std::abs(coarse.force(joint).peak - fine.force(joint).peak));
-    c.couple[j] = std::max(c.couple[j], std::abs(coarse.couple(joint).peak - fine.couple(joint).peak));
+JointPeaks peaks_of(const BasicLoadRecorder<S>& pass, std::size_t joints) {
+  JointPeaks peaks;
+  for (std::size_t j = 0; j < joints; ++j) {
+    peaks.force.push_back(pass.force(static_cast<int>(j)).peak);
+    peaks.couple.push_back(pass.couple(static_cast<int>(j)).peak);
   }
+  return peaks;
+}
+
+void include_peak_differences(const JointPeaks& before, const JointPeaks& coarse, const JointPeaks& fine, double share, PassDifference& c) {
+  const auto include = [share](const std::vector<double>& first, const std::vector<double>& second, const std::vector<double>& third, std::vector<double>& difference) {
+    for (std::size_t j = 0; j < difference.size(); ++j) {
+      const double now = std::abs(third[j] - second[j]);
+      const bool decreased = first.empty() || now < std::abs(second[j] - first[j]);
+      difference[j] = std::max(difference[j], decreased ? now : now / share);
+    }
+  };
+  include(before.force, coarse.force, fine.force, c.force);
+  include(before.couple, coarse.couple, fine.couple, c.couple);
 }
 
 template <class S>
@@ -262,8 +275,8 @@ void state_errors_until(const BasicSystem<S>& system, const BasicForceTable<S>& 
 
 template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
 template void include_peaks(const BasicLoadRecorder<Planar>& fine, double part, PassDifference& c);
-template void include_peak_differences(const BasicLoadRecorder<Planar>& coarse, const BasicLoadRecorder<Planar>& fine, PassDifference& c);
-PINTLE_IN_SPACE(template void include_peak_differences(const BasicLoadRecorder<Spatial>& coarse, const BasicLoadRecorder<Spatial>& fine, PassDifference& c);)
+template JointPeaks peaks_of(const BasicLoadRecorder<Planar>& pass, std::size_t joints);
+PINTLE_IN_SPACE(template JointPeaks peaks_of(const BasicLoadRecorder<Spatial>& pass, std::size_t joints);)
 PINTLE_IN_SPACE(template void include_peaks(const BasicLoadRecorder<Spatial>& fine, double part, PassDifference& c);)
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double longest_path(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& table);

@@ -28,9 +28,18 @@ PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicFor
 template <class S>
 void include_peaks(const BasicLoadRecorder<S>& fine, double part, PassDifference& c);
 
-/// Adds the difference of the passes' peaks, wherever they are: the passes must agree between the rows too. theory/time Eq. (6.2).
+/// Each joint's peak force [N] and couple [N*m] in one pass.
+struct JointPeaks {
+  std::vector<double> force, couple;
+};
+
 template <class S>
-void include_peak_differences(const BasicLoadRecorder<S>& coarse, const BasicLoadRecorder<S>& fine, PassDifference& c);
+JointPeaks peaks_of(const BasicLoadRecorder<S>& pass, std::size_t joints);
+
+/// Adds the difference of the passes' peaks, wherever they are: the passes must agree between the rows too. A difference that has not decreased
+/// since the pass before these two counts in full, divided by `share`: nothing shows that the coarser pass caused it. `before` is empty if there
+/// was no such pass. theory/time Eq. (6.2).
+void include_peak_differences(const JointPeaks& before, const JointPeaks& coarse, const JointPeaks& fine, double share, PassDifference& c);
 
 /// Each joint's largest difference relative to its peak force or couple [-]. For joints that carry almost nothing the reference is a
 /// small part of the largest in the mechanism; for couples at least that part of the largest force at a radius of gyration.
