@@ -96,6 +96,8 @@ TEST(ExpressionJumps, SwitchingFunctionsAreSignedDistances) {
     for (const char* text : {"if(x > 1, 2, 3)", "if(x <= 1, 2, 3)"}) EXPECT_EQ(at(text, x), std::vector{x - 1}) << text;
     EXPECT_EQ(at("smoothstep(0, 2, x)", x), (std::vector{-x, 2 - x}));
     EXPECT_EQ(at("abs(x) + 2*min(x, 1)", x), (std::vector{-x, 1 - x}));
+    EXPECT_EQ(at("atan2(x, -1)", x), std::vector{-x});
+    EXPECT_EQ(at("tan(x)", x), std::vector{std::cos(x)});
     EXPECT_TRUE(at("sin(x)^2", x).empty());
   }
 }

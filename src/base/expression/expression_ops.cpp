@@ -69,7 +69,11 @@ void evaluate_switching_functions(Op op, std::span<const double> x, double* valu
     case Op::kAbs:
     case Op::kSign:
     case Op::kStep:
+    case Op::kAtan2:  // jumps where y changes its sign at a negative x
       value[0] = -x[0];
+      break;
+    case Op::kTan:
+      value[0] = std::cos(x[0]);
       break;
     case Op::kMin:
     case Op::kMax:

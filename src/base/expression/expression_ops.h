@@ -83,10 +83,10 @@ struct FunctionInfo {
 std::span<const FunctionInfo> function_catalog();
 const FunctionInfo* find_function(std::string_view name);
 
-/// Number of kinks and jumps of an operation within its range.
+/// Number of kinks, jumps and poles of an operation within its range. The jump of atan2 is where y changes its sign; where x is positive then, nothing jumps.
 constexpr int n_switches(Op op) {
   if (op == Op::kSmoothstep) return 2;
-  return op == Op::kAbs || op == Op::kSign || op == Op::kStep || (op >= Op::kMin && op <= Op::kGreaterEqual) ? 1 : 0;  // `if` follows its condition
+  return op == Op::kTan || op == Op::kAbs || op == Op::kSign || op == Op::kStep || (op >= Op::kAtan2 && op <= Op::kGreaterEqual) ? 1 : 0;  // `if` follows its condition
 }
 /// One value for each of them that is positive on one side only: not at the kink itself if the kink belongs to the other side.
 void evaluate_switching_functions(Op op, std::span<const double> operands, double* value);
