@@ -21,6 +21,15 @@ constexpr double kCrossing = 0.1;        // fraction of the tolerance times the 
 constexpr double kNearJump = 1e-4;       // fraction of the usual step: rejected steps this short are checked for jumps
 constexpr double kLeastCrossing = 1e-8;  // lower limit on such steps, as a fraction of the usual step: shorter ones are lost in the rounding of velocities over the step
 
+// The roundoff in velocities or accelerations, of which `start` and `end` are those of two stages.
+S::Vec rounding_of_rates(const Vecs& start, const Vecs& end) {
+  double turn = 0;
+  for (const Vecs* x : {&start, &end})
+    for (const S::Vec& xi : *x) turn = std::max(turn, std::abs(xi[2]));
+  const double along = std::max(largest_coordinate(start), largest_coordinate(end));
+  return kLastBits * S::Vec(along, along, turn);
+}
+
 }  // namespace
 
 IdealStepper::IdealStepper(const System& system, double tolerance, Equations equations, const PenaltySettings& penalty)
@@ -271,8 +280,8 @@ double IdealStepper::error(double h) {
     at_begin_->project_onto_tangent(error_v_);
   }
   double worst = 0;
-  const double of_velocities = kLastBits * largest_coordinate(begin_.v) / h, of_accelerations = kLastBits * largest_coordinate(begin_.a);
-  const auto above = [](const S::Vec& x, double rounding) { return S::Vec((x.cwiseAbs().array() - rounding).max(0)); };
+  const S::Vec of_velocities = rounding_of_rates(begin_.v, kq_[kStages - 1]) / h, of_accelerations = rounding_of_rates(begin_.a, kv_[kStages - 1]);
+  const auto above = [](const S::Vec& x, const S::Vec& rounding) { return S::Vec((x.cwiseAbs() - rounding).cwiseMax(0)); };
   for (std::size_t i = 0; i < error_q_.size(); ++i) {
     const S::Vec d = above(error_v_[i], of_accelerations).cwiseMax(above(error_q_[i], of_velocities)).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]);
     worst = std::max(worst, d.maxCoeff());
