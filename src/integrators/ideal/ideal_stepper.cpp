@@ -21,13 +21,13 @@ constexpr double kCrossing = 0.1;        // fraction of the tolerance times the 
 constexpr double kNearJump = 1e-4;       // fraction of the usual step: rejected steps this short are checked for jumps
 constexpr double kLeastCrossing = 1e-8;  // lower limit on such steps, as a fraction of the usual step: shorter ones are lost in the rounding of velocities over the step
 
-// The roundoff in velocities or accelerations, of which `start` and `end` are those of two stages.
-S::Vec rounding_of_rates(const Vecs& start, const Vecs& end) {
+// The largest of two stages' velocities or accelerations: (along, along, turn).
+S::Vec largest_rates(const Vecs& start, const Vecs& end) {
   double turn = 0;
   for (const Vecs* x : {&start, &end})
     for (const S::Vec& xi : *x) turn = std::max(turn, std::abs(xi[2]));
   const double along = std::max(largest_coordinate(start), largest_coordinate(end));
-  return kLastBits * S::Vec(along, along, turn);
+  return {along, along, turn};
 }
 
 }  // namespace
@@ -280,7 +280,8 @@ double IdealStepper::error(double h) {
     at_begin_->project_onto_tangent(error_v_);
   }
   double worst = 0;
-  const S::Vec of_velocities = rounding_of_rates(begin_.v, kq_[kStages - 1]) / h, of_accelerations = rounding_of_rates(begin_.a, kv_[kStages - 1]);
+  const S::Vec velocity = largest_rates(begin_.v, kq_[kStages - 1]), centripetal = velocity[2] * velocity[2] * S::Vec(largest_coordinate(begin_.q), largest_coordinate(begin_.q), 1);
+  const S::Vec of_velocities = kLastBits / h * velocity, of_accelerations = kLastBits * largest_rates(begin_.a, kv_[kStages - 1]).cwiseMax(centripetal);  // roundoff
   const auto above = [](const S::Vec& x, const S::Vec& rounding) { return S::Vec((x.cwiseAbs() - rounding).cwiseMax(0)); };
   for (std::size_t i = 0; i < error_q_.size(); ++i) {
     const S::Vec d = above(error_v_[i], of_accelerations).cwiseMax(above(error_q_[i], of_velocities)).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]);
