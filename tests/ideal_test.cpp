@@ -248,6 +248,32 @@ TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
   EXPECT_NEAR(value(step, step.n_rows() - 1, "body.a.angle"), 0.1, 1e-4);
 }
 
+// A balanced disc without gravity, whose joint carries nothing: errors were measured relative to almost nothing, and roundoff was rejected.
+TEST(Ideal, ADiscThatCarriesNothingIsTurned) {
+  const auto turned = [](const std::string& motor) {
+    return parse_model(R"toml(
+format = 1
+gravity = [0, 0]
+simulate = { duration = "0.2 s", equations = "ideal" }
+ground.markers.O = [0, 0]
+body.disc = { mass = 5, inertia = 0.1, hold = ["angle"], markers = { O = [0, 0] } }
+joint.O = { type = "revolute", between = ["ground.O", "disc.O"] }
+[motor.m]
+joint = "O"
+)toml" + motor, "disc.toml");
+  };
+  for (const char* speed : {"1", "20", "100 rpm", "100"}) {
+    const Trajectory run = completed(turned(fmt::format("speed = \"{}\"", speed)));
+    EXPECT_LT(run.counters.steps, 40u) << speed;
+    EXPECT_LT(std::abs(run.motors[0].peak_effort), 1e-9) << speed;
+  }
+  const Trajectory swung = completed(turned("position = \"sin(100 rad/s*t)\""));
+  EXPECT_NEAR(std::abs(swung.motors[0].peak_effort), 0.1 * 1e4, 1e-6);
+  EXPECT_LT(swung.counters.steps, 2000u);
+  const Trajectory failed = simulate(turned("position = \"atan2(sin(30 rad/s*t), cos(30 rad/s*t))\""));
+  EXPECT_NE(failed.message.find("motor m is to jump by -6.283 rad at t = 0.104719755 s"), std::string::npos) << failed.message;
+}
+
 // At a kink of its command a motor has the speed after the kink: at the start that of assembly; later, if the kink falls exactly on a floating-point time, the
 // next one.
 TEST(Ideal, AMotorThatStartsOnAKinkHasTheSpeedBehindIt) {

@@ -25,6 +25,7 @@ std::size_t point(const std::string& number) {
 std::string engineering(double x) {
   const double size = std::abs(x);
   if (x == 0) return "0";
+  if (std::isnan(x)) return "-";
   if (!std::isfinite(x)) return fmt::format("{}", x);
   if (size >= 999999.5 || size < 1e-3) return fmt::format("{:.4e}", x);
   const int digits_before = static_cast<int>(std::floor(std::log10(size))) + 1;
@@ -32,6 +33,7 @@ std::string engineering(double x) {
 }
 
 std::string exponent(double x) {
+  if (std::isnan(x)) return "-";
   return x == 0 ? "0" : fmt::format("{:.1e}", x);
 }
 

@@ -6,10 +6,10 @@
 
 namespace pintle {
 
-/// `x` with five significant digits, as engineers write it: fixed from 0.001 to a million, else with an exponent.
+/// `x` with five significant digits, as engineers write it: fixed from 0.001 to a million, else with an exponent; "-" for NaN.
 std::string engineering(double x);
 
-/// Two significant digits with an exponent, for error estimates.
+/// Two significant digits with an exponent, for error estimates; "-" for NaN.
 std::string exponent(double x);
 
 class TextTable {
