@@ -198,19 +198,17 @@ TEST(Events, RopesTellWhenTheyAreSlackAndTaut) {
 
 // The jump of atan2 at the negative axis, and the poles of tan: steps across them found peaks of 1.3 times the largest value.
 TEST(Jumps, OfAnglesAreLocated) {
-  for (const auto& [angle, largest] : {std::pair{"atan2(sin(30 rad/s*t), cos(30 rad/s*t))", kTurn / 2}, std::pair{"atan(tan(30 rad/s*t))", kTurn / 4}})
-    for (const char* method : {"radau", "dopri5"}) {
-      const Trajectory run = completed(parse_model(fmt::format(R"toml(
+  for (const auto& [angle, largest] : {std::pair{"atan2(sin(30 rad/s*t), cos(30 rad/s*t))", kTurn / 2}, std::pair{"atan(tan(30 rad/s*t))", kTurn / 4}}) {
+    const Trajectory run = completed(parse_model(std::string(R"toml(
 format = 1
 gravity = [0, 0]
-simulate = {{ duration = "0.3 s", method = "{}" }}
+simulate.duration = "0.3 s"
 ground.markers.O = [0, 0]
-body.disc = {{ mass = 5, inertia = 0.1, markers = {{ O = [0, 0] }} }}
-joint.O = {{ type = "revolute", between = ["ground.O", "disc.O"] }}
-motor.m = {{ joint = "O", torque = "{}*(1 N*m/rad)" }}
-)toml", method, angle), "saw.toml"));
-      EXPECT_NEAR(std::abs(run.motors[0].peak_effort), largest, 1e-6) << angle << " " << method;
-    }
+body.disc = { mass = 5, inertia = 0.1, markers = { O = [0, 0] } }
+joint.O = { type = "revolute", between = ["ground.O", "disc.O"] }
+motor.m = { joint = "O", torque = ")toml") + angle + "*(1 N*m/rad)\" }\n", "saw.toml"));
+    EXPECT_NEAR(std::abs(run.motors[0].peak_effort), largest, 1e-6) << angle;
+  }
 }
 
 // The explicit method passes over the jump in a step so short that no curve through it means anything: its peaks are those of the rows. The servo pulls with

@@ -256,7 +256,7 @@ format = 1
 gravity = [0, 0]
 simulate = { duration = "0.2 s", equations = "ideal" }
 ground.markers.O = [0, 0]
-body.disc = { mass = 5, inertia = 0.1, hold = ["angle"], markers = { O = [0, 0] } }
+body.disc = { mass = 5, inertia = 0.1, angle = 0, hold = ["angle"], markers = { O = [0, 0] } }
 joint.O = { type = "revolute", between = ["ground.O", "disc.O"] }
 [motor.m]
 joint = "O"

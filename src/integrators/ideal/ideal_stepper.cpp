@@ -105,14 +105,14 @@ bool IdealStepper::step(double t_end) {
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = step_ratio(e);
-    if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e)) jump_ahead = find_jump() || jump_ahead;
+    if (e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e)) jump_ahead = find_jump(h) || jump_ahead;
     // Across the jump, or up to where only roundoff is left of the distance to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that a step over the singular position may be
     const bool good = e <= 1 || crossing || shortest;
     if (const double seen = good ? share_of_step(h, t_end) : 1; seen < 1) {
       ++counters_.rejected;
-      find_jump();
+      find_jump(h);
       wanted = h * seen;
       continue;
     }
@@ -150,7 +150,9 @@ double IdealStepper::share_of_step(double h, double t_end) {
 
 // Whether the step crosses a switching function, or starts at its zero. The embedded error of a jump does not fall with the step; its effect on velocities does.
 // A step may start at a jump, as that of t = 0 does where a motor starts.
-bool IdealStepper::find_jump() {
+// Whether a jump lies between the start of a step of h and its last stage. One that only earlier stages cross is remembered as well: the force drives
+// the motion back at once.
+bool IdealStepper::find_jump(double h) {
   if (!system_.has_branches()) return false;
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
@@ -159,14 +161,37 @@ bool IdealStepper::find_jump() {
     system_.evaluate_switching_functions(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding, value.data());
     return value;
   };
-  const std::vector<double> from = side(begin_), to = side(stage_);
-  for (std::size_t f = 0; f < from.size(); ++f)
-    if (from[f] == 0 || !same_sides(std::span(&from[f], 1), std::span(&to[f], 1))) {
-      jump_ = static_cast<int>(f);
-      jump_t_ = begin_.t;
-      return true;
-    }
+  const std::vector<double> from = side(begin_);
+  const auto find = [&](const State& state) {
+    const std::vector<double> to = side(state);
+    for (std::size_t f = 0; f < from.size(); ++f)
+      if (from[f] == 0 || !same_sides(std::span(&from[f], 1), std::span(&to[f], 1))) {
+        jump_ = static_cast<int>(f);
+        jump_t_ = begin_.t;
+        return true;
+      }
+    return false;
+  };
+  if (find(stage_)) return true;
+  State between = begin_;
+  for (int s = 1; s + 1 < kStages; ++s) {
+    put_stage(s, h, between);
+    if (find(between)) break;
+  }
   return false;
+}
+
+void IdealStepper::put_stage(int s, double h, State& stage) const {
+  stage.t = begin_.t + kC[s] * h;
+  for (std::size_t i = 0; i < stage.q.size(); ++i) {
+    S::Vec q = S::Vec::Zero(), v = S::Vec::Zero();
+    for (int k = 0; k < s; ++k) {
+      q += kA[s][k] * kq_[k][i];
+      v += kA[s][k] * kv_[k][i];
+    }
+    stage.q[i] = begin_.q[i] + h * q;
+    stage.v[i] = begin_.v[i] + h * v;
+  }
 }
 
 // Puts the stage on the branch of the motion, where it has the same component along the branch's tangent at the start of the step. The nearest
@@ -214,16 +239,7 @@ bool IdealStepper::evaluate_stages(double h) {
   kv_[0] = begin_.a;
   power_[0] = {begin_.supply_power, begin_.loss_power};
   for (int s = 1; s < kStages; ++s) {
-    stage_.t = begin_.t + kC[s] * h;
-    for (std::size_t i = 0; i < stage_.q.size(); ++i) {
-      S::Vec q = S::Vec::Zero(), v = S::Vec::Zero();
-      for (int k = 0; k < s; ++k) {
-        q += kA[s][k] * kq_[k][i];
-        v += kA[s][k] * kv_[k][i];
-      }
-      stage_.q[i] = begin_.q[i] + h * q;
-      stage_.v[i] = begin_.v[i] + h * v;
-    }
+    put_stage(s, h, stage_);
     ++counters_.evaluations;
     ++counters_.factorizations;
     if (closed_ ? !onto_branch() : !equations_.complete(stage_)) return false;

@@ -53,7 +53,9 @@ class IdealStepper final : public Stepper {
   bool finish(double t, double h);
   double error(double h);
   double share_of_step(double h, double t_end);
-  bool find_jump();
+  bool find_jump(double h);
+  /// Before it is closed: from the rates of the stages before it.
+  void put_stage(int s, double h, State& stage) const;
   void grow_scale();
   void foresee_loads(double h);
   void raise_above_rounding();
