@@ -175,6 +175,23 @@ TEST(StickSlip, WhatBreaksAwayWasLoadedWithAllThatHeldIt) {
     }
 }
 
+// Either friction alone could hold the door. Firm locks on both carried its whole weight, for which neither suffices: the axle started slipping, the door was
+// thrown upwards, and the rope carried 877 N, or 1102 N with the larger pin.
+TEST(StickSlip, WhatEitherOfTwoFrictionsCouldHoldStartsAtRest) {
+  for (const char* radius : {"12 mm", "30 mm"}) {
+    const Trajectory run = completed(reference::test_model("garage_door_at_rest", {std::string("joint.axle.pin_radius=\"") + radius + "\""}));
+    for (std::size_t row = 0; row < run.n_rows(); row += 100) {
+      const double rope = std::abs(reference::value(run, row, "joint.rope.on_drum.fy[world]")), rail = reference::value(run, row, "joint.rail.friction");
+      EXPECT_GT(rope, 0.98 * 80 * 9.80665 - 1) << radius;
+      EXPECT_LT(rope, 80 * 9.80665 + 1) << radius;
+      EXPECT_NEAR(rope + std::abs(rail), 80 * 9.80665, 1e-3) << radius;
+      EXPECT_LT(std::abs(reference::value(run, row, "body.door.vy")), 1e-6) << radius;
+      EXPECT_EQ(reference::value(run, row, "joint.axle.stuck"), 1) << radius;
+      EXPECT_EQ(reference::value(run, row, "joint.rail.stuck"), 1) << radius;
+    }
+  }
+}
+
 // Bristles that nothing presses exert no force, and grew without bound: the run failed when the load came. Each half swing then costs 2 M / k of the angle.
 TEST(StickSlip, BristlesThatNothingHasPressedHoldAsOthersDo) {
   constexpr double kSpring = 1000, kInertia = 0.01, kFriction = 0.1 * 100 * 0.01;

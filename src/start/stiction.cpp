@@ -17,17 +17,20 @@ namespace {
 
 using S = Planar;
 
+constexpr double kSoft = 1e-6;  // stiffness of a soft lock, as a fraction of a firm one's: joints deflect under their loads, and the lock carries what they do not balance
+
 // Holds one component at its present value.
 struct LockLaw {
   static constexpr std::string_view kWord = "lock";
   int component = 0;
   double k = 1, at = 0;  // [N/m or N*m/rad]; the gap at which it holds
+  double preload = 0;    // force there [N or N*m]
 
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     const T off = in.gap[component] - T(at);
-    out.force[component] = -(k * off);
-    out.energy = 0.5 * k * (off * off);
+    out.force[component] = T(preload) - k * off;
+    out.energy = 0.5 * k * (off * off) - preload * off;
   }
   Planar::Vec engaged_stiffness() const { return k * Planar::Vec::Unit(component); }
 };
@@ -89,9 +92,44 @@ bool knows_its_way(const JointData& joint, double t, const S::Vec& gap) {
 void take_off_locks(int n_joints, std::vector<LockedJoint>& held, BasicSettledStart<S>& start) {
   State& state = start.state;
   const S::Vec* gap = state.gap.data() + n_joints;
-  for (LockedJoint& one : held) one.force = -one.lock.k * ((*gap++)[one.lock.component] - one.lock.at);
+  for (LockedJoint& one : held) one.force = one.lock.preload - one.lock.k * ((*gap++)[one.lock.component] - one.lock.at);
   for (VecsOf<S>* of_joints : {&state.gap, &state.gap_rate, &state.gap_accel, &state.force, &start.effective_mass})
     if (!of_joints->empty()) of_joints->resize(static_cast<std::size_t>(n_joints));
+}
+
+bool stick(const System& system, const LockedJoint& one, State& state) {
+  const JointData& joint = system.joints[one.joint];
+  return joint.law.set_stuck(law_point(system, one.joint, state), one.force, state.law_state.data() + joint.first_state);
+}
+
+void find_motion(const System& system, State& state) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, state.t, state.q, state.v, m, r);
+  find_law_rates(system, state);
+  find_joint_forces(system, state);
+  find_accelerations(system, m, r, state);
+}
+
+// Firm locks carry all that would deflect a rope or another soft joint between them. If friction can hold the mechanism once that has deflected, it rests:
+// only what the joints do not balance is shared, by the locks' stiffness.
+bool rests_by_friction(const System& system, std::vector<LockedJoint> held, const BasicSettledStart<S>& unloaded, double duration, double known_span, BasicSettledStart<S>& start) {
+  for (LockedJoint& one : held) one.lock.k *= kSoft;
+  BasicSettledStart<S> trial = unloaded;
+  start_forces(with_locks(system, held), true, trial.state);
+  const auto all_stick = [&] { return std::ranges::all_of(held, [&](const LockedJoint& one) { return stick(system, one, trial.state); }); };
+  for (std::size_t i = 0; i < held.size(); ++i) held[i].force = held[i].lock.preload = trial.state.force[system.joints.size() + i][held[i].lock.component];
+  if (!all_stick()) return false;
+  trial.state = unloaded.state;
+  const System locked = with_locks(system, held);
+  start_forces(locked, true, trial.state);
+  settle_joints(locked, duration, known_span, trial);
+  take_off_locks(system.n_joints(), held, trial);
+  rest_laws(system, trial.state);
+  if (!all_stick()) return false;
+  find_motion(system, trial.state);
+  start = std::move(trial);
+  return true;
 }
 
 }  // namespace
@@ -134,18 +172,18 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
     take_off_locks(system.n_joints(), held, trial);
     rest_laws(system, state);
     const auto slips = [&](const LockedJoint& one) {
-      JointData& joint = system.joints[one.joint];
-      if (joint.law.set_stuck(law_point(system, one.joint, state), one.force, state.law_state.data() + joint.first_state)) return false;
-      joint.law.start_slipping(one.force);
+      if (stick(system, one, state)) return false;
+      system.joints[one.joint].law.start_slipping(one.force);
       slipping.push_back(one);
       return true;
     };
+    const bool first = slipping.empty();
+    const std::vector<LockedJoint> all = held;
+    const System unslipped = first ? system : System();
     again = std::erase_if(held, slips) > 0;
+    if (again && first && all.size() > 1 && rests_by_friction(unslipped, all, unloaded, duration, known_span, start)) return unslipped;
     if (again) continue;
-    kinematics_at(system, state.t, state.q, state.v, m, r);
-    find_law_rates(system, state);
-    find_joint_forces(system, state);
-    find_accelerations(system, m, r, state);
+    find_motion(system, state);
     start = std::move(trial);
   }
   return system;
