@@ -164,6 +164,19 @@ TEST(Stops, ACushionBrakesAsItsEquationSays) {
   EXPECT_NEAR(run.end.dissipated, 0.5 * kInertia * (spin * spin - y[1] * y[1]) - (y[0] > 0 ? 0.5 * k * y[0] * y[0] : 0), 1e-6);
 }
 
+// One word takes the stops away; their keys wait.
+TEST(Stops, NoneTakesThemAway) {
+  const Model model = reference::mechanism("door_stops", {"joint.hinge.stops=\"none\""});
+  EXPECT_EQ(model.joints.at(0).name, "hinge");
+  EXPECT_EQ(model.joints.at(0).stops.word, "");
+  try {
+    reference::mechanism("air_cylinder", {"joint.thrust.stops=\"none\""});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the stroke ends somewhere"), std::string::npos) << error.what();
+  }
+}
+
 // Friction with a stop is the same as without one: the joint force along the slide is the sum of both, and each has a column of its own.
 TEST(Stops, FrictionAndStopsHaveColumnsOfTheirOwn) {
   const Trajectory run = completed(thrown_door("stops = \"hard\"\nstop_stiffness = 1e5\nstop_restitution = 0.6\nfriction = \"stribeck\"\nfriction_coefficient = 0.2\nstatic_friction = 0.2\nfriction_preload = 1", "1 s"));

@@ -32,7 +32,7 @@ std::vector<Complaint> complaints_about(const std::string& text, const std::vect
 }
 
 const std::vector<Mistake> kMistakes{
-    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@soft\"\nbetween", "joint.O2.stops", "none of hard, cushioned"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@soft\"\nbetween", "joint.O2.stops", "none of hard, cushioned, none"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@hunt-crossley\"\nbetween", "joint.O2.stops", "none of hard, cushioned", "stop_model = \"hunt-crossley\""},
     {"type = \"revolute\"\nbetween", "type = \"@hinge\"\nbetween", "joint.O2.type", "it is none of revolute", "revolute"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = 1\nupper_stop = 2\nstop_restitution = @0\nbetween", "joint.O2.stop_restitution", "greater than 0", "0.01"},

@@ -22,7 +22,6 @@ TEST(Engineering, FiveDigitsFixedWhereReadable) {
   EXPECT_EQ(engineering(1.5e-7), "1.5000e-07");
   EXPECT_EQ(engineering(std::numeric_limits<double>::infinity()), "inf");
   EXPECT_EQ(engineering(-std::numeric_limits<double>::quiet_NaN()), "-");
-  EXPECT_EQ(engineering(std::nan("")), "nan");
 }
 
 TEST(TextTable, AlignsAtTheDecimalPoint) {

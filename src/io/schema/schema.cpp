@@ -65,8 +65,10 @@ std::vector<std::string> words_of_catalog(std::string_view catalog) {
     words.emplace_back("none");
   } else if (catalog == "stop laws") {
     list(LawRole::kStops);
+    words.emplace_back("none");
   } else if (catalog == "detent laws") {
     list(LawRole::kDetent);
+    words.emplace_back("none");
   } else if (catalog == "joint types") {
     for (const JointTypeInfo& type : joint_type_catalog()) words.emplace_back(type.word);
   } else {
