@@ -45,6 +45,15 @@ TEST_F(RunVerb, NamesTheForceThatIsNotANumber) {
   EXPECT_TRUE(holds(answer.error, "force pull is not finite there")) << answer.error;
 }
 
+TEST_F(RunVerb, NamesTheMotorThatIsNotANumber) {
+  for (const char* equations : {"newtonian", "relative"}) {
+    sandbox_.write("broken.toml", pendulum_toml("1 s", "10 ms") + "[motor.drag]\njoint = \"pin\"\ntorque = \"-1 N*m*rate/abs(rate)\"\n");
+    const Answer answer = sandbox_.pintle(std::string("run broken.toml --force --equations ") + equations);
+    EXPECT_EQ(answer.exit_code, 5);
+    EXPECT_TRUE(holds(answer.error, "at t = 0 s: motor drag is not finite there")) << answer.error;
+  }
+}
+
 TEST_F(RunVerb, QuietIsQuiet) {
   const Answer answer = sandbox_.pintle("run --quiet pendulum.toml --out there");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;

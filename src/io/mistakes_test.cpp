@@ -315,6 +315,15 @@ TEST(Mistakes, JsonIsLocatedToo) {
   }
 }
 
+// A value that does not fit a joint may be that of [defaults.joint].
+TEST(Mistakes, ADefaultThatDoesNotFitIsNamed) {
+  const std::vector<Complaint> complaints =
+      complaints_about(kFullModel, {"defaults.joint.static_friction=0.05", "joint.O2.friction=coulomb", "joint.O2.pin_radius=10 mm", "joint.O2.friction_coefficient=0.4"});
+  ASSERT_EQ(complaints.size(), 1U);
+  EXPECT_EQ(complaints[0].path, "joint.O2.static_friction");
+  EXPECT_EQ(complaints[0].found, "0.05 of [defaults.joint]");
+}
+
 // Hertz are no turns per second, by whatever way they come to a rotational speed.
 TEST(Mistakes, AFrequencyBehindAParameterIsNoSpeed) {
   const auto complaint = [](const std::string& parameters, const std::string& speed) -> std::string {

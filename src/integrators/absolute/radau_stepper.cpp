@@ -137,7 +137,7 @@ bool BasicRadauStepper<S>::step(double t_end) {
   if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
   std::vector<std::pair<double, int>> residuals;
   for (int j = 0; j < system_.n_joints(); ++j) residuals.emplace_back(solver_->residual(j), j);
-  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals), control_.last_event(system_, begin_.t - control_.usual));
+  failure_ = no_step_message(system_, begin_, control_.next, std::move(residuals), control_.last_event(system_, begin_.t - control_.usual));
   return false;
 }
 

@@ -12,10 +12,15 @@
 namespace pintle {
 namespace {
 
-// The applied force or driven coordinate whose value is not finite at t or just after; empty: all are finite.
+// The motor, applied force or driven coordinate whose value is not finite in this state or, if it depends on time alone, just after; empty: all are finite.
 template <class S>
-std::string broken_function(const BasicSystem<S>& system, double t) {
+std::string broken_function(const BasicSystem<S>& system, const BasicState<S>& state) {
   constexpr double kJustAfter = 1e-9;  // fraction of the time: a function must be finite this long after an instant, too
+  const double t = state.t;
+  std::vector<typename S::Motion> m;
+  system.motions(state.q, state.v, m);
+  for (const BasicLoadData<S>& load : system.loads)
+    if (load.kind == LoadKind::kEffort && !std::isfinite(system.load_effort(load, t, m))) return (load.applied ? "force " : "motor ") + load.name;
   for (const double at : {t, t + kJustAfter * std::max(std::abs(t), 1e-3)}) {
     const std::array<double, 1> time{at};
     for (const BasicAppliedData<S>& force : system.applied)
@@ -47,8 +52,9 @@ std::string StepControl::last_event(const BasicSystem<S>& system, double since) 
 }
 
 template <class S>
-std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event) {
-  if (const std::string broken = broken_function(system, t); !broken.empty()) return fmt::format("at t = {:.9g} s: {} is not finite there; try if(..., ..., 0) where its expression is not defined", t, broken);
+std::string no_step_message(const BasicSystem<S>& system, const BasicState<S>& start, double h, std::vector<std::pair<double, int>> residuals, const std::string& event) {
+  const double t = start.t;
+  if (const std::string broken = broken_function(system, start); !broken.empty()) return fmt::format("at t = {:.9g} s: {} is not finite there; try if(..., ..., 0) where its expression is not defined", t, broken);
   constexpr std::size_t kNamed = 3;  // joints with the largest residuals
   const auto rank = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); };
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
@@ -62,8 +68,8 @@ std::string no_step_message(const BasicSystem<S>& system, double t, double h, st
   return text;
 }
 
-template std::string no_step_message(const BasicSystem<Planar>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
-PINTLE_IN_SPACE(template std::string no_step_message(const BasicSystem<Spatial>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);)
+template std::string no_step_message(const BasicSystem<Planar>& system, const State& start, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
+PINTLE_IN_SPACE(template std::string no_step_message(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);)
 template std::string StepControl::last_event(const BasicSystem<Planar>& system, double since) const;
 PINTLE_IN_SPACE(template std::string StepControl::last_event(const BasicSystem<Spatial>& system, double since) const;)
 

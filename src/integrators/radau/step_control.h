@@ -346,9 +346,9 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   return false;
 }
 
-/// Time and size of the last step, the event near it if there is one, and the joints with the largest residuals: (residual [m/s^2],
-/// joint) each.
+/// What is not finite at `start`, where the last step began; otherwise its time and size, the event near it if there is one, and the joints with the largest
+/// residuals: (residual [m/s^2], joint) each.
 template <class S>
-std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
+std::string no_step_message(const BasicSystem<S>& system, const BasicState<S>& start, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
 
 }  // namespace pintle

@@ -50,7 +50,7 @@ bool TreeRadau::step(double t_end) {
   if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
   std::vector<std::pair<double, int>> residuals;
   for (const int j : tree_->laws()) residuals.emplace_back(stages_.residual(j), j);
-  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals), control_.last_event(system_, begin_.t - control_.usual));
+  failure_ = no_step_message(system_, begin_state_, control_.next, std::move(residuals), control_.last_event(system_, begin_.t - control_.usual));
   return false;
 }
 

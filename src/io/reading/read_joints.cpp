@@ -142,11 +142,17 @@ void read_edge(ModelReading& reading, const Record& record, Joint& joint) {
     reading.complaints.add(record.spot("height"), record.path + ".height", in_quotes(joint.edge->height.text()), std::move(why), "a height that is smooth (a table: interpolation = \"spline\", outside = \"extend\"; a corner: rounded with smoothstep), or a smaller roller");
 }
 
-// Reports a fault of a law or of a geometry at the place of its key.
+// Reports a fault of a law or of a geometry at the place of its key. The joint may have its value from `defaults`.
 template <class Fault>
-void complain_of(const Fault& fault, const Record& record, ModelReading& reading) {
-  const Value* value = record.find(fault.key);
-  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : "no " + fault.key, fault.why, fault.remedy);
+void complain_of(const Fault& fault, const Record& record, ModelReading& reading, const Record* defaults = nullptr) {
+  const auto stated_in = [&fault](const Record& table) {
+    const Value* value = table.find(fault.key);
+    return value != nullptr && value->node != nullptr ? describe(*value->node) : std::string();
+  };
+  std::string found = stated_in(record);
+  if (found.empty() && defaults != nullptr)
+    if (const std::string usual = stated_in(*defaults); !usual.empty()) found = usual + " of [defaults.joint]";
+  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, found.empty() ? "no " + fault.key : found, fault.why, fault.remedy);
 }
 
 // Whether the values of the type's keys are consistent.
@@ -176,7 +182,7 @@ void blame_the_table(const LawInfo& law, const Record& record, LawFault& fault) 
 }
 
 // Whether the law suits the joint and, if each value is valid by itself, whether the values are consistent.
-void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Joint& joint, const LawChoice& choice, bool complete) {
+void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Record& defaults, const Joint& joint, const LawChoice& choice, bool complete) {
   if (!suits(law, type.word)) {
     std::string types;
     for (const std::string_view one : law.joints) types += (types.empty() ? "" : ", ") + std::string(one);
@@ -199,7 +205,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   LawFault fault = law.fault(setting);
   if (fault.key.empty()) return;
   blame_the_table(law, record, fault);
-  complain_of(fault, record, reading);
+  complain_of(fault, record, reading, &defaults);
 }
 
 // The points of the table that a key names, as values of the two keys that the table replaces.
@@ -261,7 +267,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     else if (choice.values.count(std::string(key.key)) == 0 && (key.otherwise.empty() || is_stated(key.key))) missing.push_back(std::string(key.key));
   }
   for (const std::string& key : missing) complete = complete && choice.values.count(key) > 0;
-  check_law(reading, type, law, record, joint, choice, complete);
+  check_law(reading, type, law, record, defaults, joint, choice, complete);
 }
 
 void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry& joint, const std::string& joint_path, std::optional<Bearing>& out) {
