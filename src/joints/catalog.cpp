@@ -66,10 +66,9 @@ JointDisplacement make_pose(const Geometry&) { return Selection{}; }
 JointDisplacement make_distance(const Geometry& g) { return Distance{value(g, "length", 0)}; }
 JointDisplacement make_stroke(const Geometry& g) { return Distance{value(g, "closed_length", 0)}; }
 GeometryFault cylinder_fault(const Geometry& g) {
-  constexpr double kAtmosphere = 101325;  // standard [Pa]
   const double bore = value(g, "bore", 1), rod = value(g, "rod_diameter", 0), ambient = value(g, "ambient_pressure", 0);
   if (rod >= bore) return {"rod_diameter", fmt::format("the rod of {:g} m does not fit into the bore of {:g} m", rod, bore), "a rod thinner than the bore"};
-  const double vacuum = ambient > 0 ? 0 : -kAtmosphere;
+  const double vacuum = vacuum_of(g);
   for (const char* key : {"cap_pressure", "rod_pressure"})
     if (value(g, key, 0) < vacuum)
       return {key, fmt::format("this is below vacuum, which is at {:g} Pa {}", vacuum, ambient > 0 ? "where ambient_pressure makes pressures absolute" : "over the surroundings"), "the other chamber's pressure, if the cylinder is to pull"};
@@ -139,6 +138,11 @@ const JointTypeInfo* find_joint_type(std::string_view word) {
 void register_joint_type(const JointTypeInfo& info) {
   if (find_joint_type(info.word)) throw std::logic_error("there is a joint type '" + std::string(info.word) + "' already");
   types().push_back(info);
+}
+
+double vacuum_of(const Geometry& cylinder) {
+  constexpr double kAtmosphere = 101325;  // standard [Pa]
+  return value(cylinder, "ambient_pressure", 0) > 0 ? 0 : -kAtmosphere;
 }
 
 }  // namespace pintle

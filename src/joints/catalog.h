@@ -44,6 +44,9 @@ std::span<const JointTypeInfo> joint_type_catalog();
 /// The type called `word`, or nullptr.
 const JointTypeInfo* find_joint_type(std::string_view word);
 
+/// The pressure of a vacuum as a cylinder's pressures are stated [Pa]: over the surroundings', at the standard atmosphere, or absolute if it has an ambient_pressure.
+double vacuum_of(const Geometry& cylinder);
+
 /// Registers a joint type, before the first model is read. Throws std::logic_error if a type with this word exists.
 void register_joint_type(const JointTypeInfo& info);
 

@@ -10,6 +10,7 @@
 #include "pintle/bearings.h"
 #include "run/check_settings.h"
 #include "run/limits/limit_notes.h"
+#include "run/limits/vacuum_notes.h"
 #include "run/recorder.h"
 #include "run/run_passes.h"
 #include "start/start.h"
@@ -47,6 +48,8 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
       limits.erase(limits.begin());
     }
     out.notes.insert(out.notes.begin(), limits.begin(), limits.end());
+    const std::vector<std::string> vacuums = vacuum_notes(model, out);
+    out.notes.insert(out.notes.end(), vacuums.begin(), vacuums.end());
   }
   out.wall_seconds = clock.seconds();
   return out;
