@@ -228,7 +228,7 @@ TEST(Cylinders, BadInputIsLocated) {
   EXPECT_THROW(completed(ram(kHard + "stroke = \"50 mm\"")), AssemblyError);
 }
 
-// A flow law does not know that oil tears: a note does, by the lowest pressure. Constant pressures are refused when the model is read.
+// A flow law does not know that oil cavitates: a note says so, with the lowest pressure. Constant pressures are refused when the model is read.
 TEST(Cylinders, PressuresBelowVacuumAreNoted) {
   const auto notes = [](const std::string& pressures) {
     std::string all;

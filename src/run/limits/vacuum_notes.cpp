@@ -21,7 +21,7 @@ std::vector<std::string> vacuum_notes(const Model& model, const Trajectory& run)
         if (at(row) < at(lowest)) lowest = row;
       const double vacuum = vacuum_of(joint.geometry);
       if (!(at(lowest) < vacuum)) continue;
-      notes.push_back(fmt::format("the pressure on the {} side of cylinder {} falls to {:.4g} bar at t = {:.4g} s, below vacuum ({:.4g} bar): oil or air would tear there and pull no more, and the stated forces are too large. "
+      notes.push_back(fmt::format("the pressure on the {} side of cylinder {} falls to {:.4g} bar at t = {:.4g} s, below vacuum ({:.4g} bar): no fluid pulls, oil would cavitate there, and the stated forces are too large. "
                                   "max(..., {:.6g} bar) limits the expression of {}_pressure",
                                   chamber, joint.name, at(lowest) / kBar, run.at(lowest, 0), vacuum / kBar, vacuum / kBar, chamber));
     }
