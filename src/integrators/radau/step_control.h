@@ -14,6 +14,7 @@
 #include "integrators/radau/event_location.h"
 #include "integrators/thresholds.h"
 #include "pintle/trajectory.h"
+#include "system/state.h"
 #include "system/system.h"
 
 namespace pintle {
