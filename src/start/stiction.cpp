@@ -117,7 +117,7 @@ bool rests_by_friction(const System& system, std::vector<LockedJoint> held, cons
   for (LockedJoint& one : held) one.lock.k *= kSoft;
   BasicSettledStart<S> trial = unloaded;
   start_forces(with_locks(system, held), true, trial.state);
-  const auto all_stick = [&] { return std::ranges::all_of(held, [&](const LockedJoint& one) { return stick(system, one, trial.state); }); };
+  const auto all_stick = [&] { return std::all_of(held.begin(), held.end(), [&](const LockedJoint& one) { return stick(system, one, trial.state); }); };
   for (std::size_t i = 0; i < held.size(); ++i) held[i].force = held[i].lock.preload = trial.state.force[system.joints.size() + i][held[i].lock.component];
   if (!all_stick()) return false;
   trial.state = unloaded.state;

@@ -20,7 +20,7 @@ std::vector<std::string> closest_family(const std::string& word, const std::vect
   for (std::size_t dot = word.find('.'); dot != std::string::npos; dot = word.find('.', dot + 1)) {
     const std::string prefix = word.substr(0, dot + 1);
     std::vector<std::string> closer;
-    std::ranges::copy_if(family, std::back_inserter(closer), [&](const std::string& name) { return name.starts_with(prefix); });
+    std::copy_if(family.begin(), family.end(), std::back_inserter(closer), [&](const std::string& name) { return name.starts_with(prefix); });
     if (closer.empty()) break;
     family = std::move(closer);
   }
