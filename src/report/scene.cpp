@@ -242,7 +242,7 @@ double SceneMaker::largest_load() const {
   double largest = 0;
   for (const std::size_t row : sample_rows(400))
     for (const LoadArrow& load : scene_.loads) {
-      const Vec2 f = vector_at(row, load.fx, load.fy);
+      const Vec2 f = force_in_row(row, load.fx, load.fy);
       if (const double size = std::hypot(f[0], f[1]); std::isfinite(size)) largest = std::max(largest, size);
     }
   return largest;
@@ -265,8 +265,8 @@ void SceneMaker::scale_arrows() {
     if (std::isfinite(force) && force > 0) scene_.box.cover({at[0] + size * f[0] / force, at[1] + size * f[1] / force});
   };
   for (const std::size_t row : sample_rows(400)) {
-    for (const ForceArrow& arrow : scene_.arrows) show_tip(place(arrow.at, row), vector_at(row, arrow.fx, arrow.fy));
-    for (const LoadArrow& load : scene_.loads) show_tip(place(MovingPoint{load.at}, row), vector_at(row, load.fx, load.fy));
+    for (const ForceArrow& arrow : scene_.arrows) show_tip(place(arrow.at, row), force_in_row(row, arrow.fx, arrow.fy));
+    for (const LoadArrow& load : scene_.loads) show_tip(place(MovingPoint{load.at}, row), force_in_row(row, load.fx, load.fy));
   }
 }
 

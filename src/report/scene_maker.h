@@ -55,9 +55,9 @@ class SceneMaker {
   Pose pose(int body, std::size_t row) const;
   std::optional<MovingPoint> spot_of(const Joint& joint) const;  ///< where its force acts
   Vec2 place(const MovingPoint& spot, std::size_t row) const;
-  /// Two columns of a row.
-  Vec2 vector_at(std::size_t row, int x, int y) const {
-    return {trajectory_.at(row, static_cast<std::size_t>(x)), trajectory_.at(row, static_cast<std::size_t>(y))};
+  /// Of an arrow with these columns [N].
+  Vec2 force_in_row(std::size_t row, int fx, int fy) const {
+    return {trajectory_.at(row, static_cast<std::size_t>(fx)), trajectory_.at(row, static_cast<std::size_t>(fy))};
   }
   Vec2 towards_rack(const Anchor& pinion, const Anchor& rack) const;
   void put(Layer layer, Shape shape) { layers_[layer].push_back(std::move(shape)); }

@@ -77,7 +77,7 @@ class Passes {
     const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
     interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
     if (!complete && fine_) return false;
-    peaks_before_ = std::exchange(coarse_peaks_, std::exchange(fine_peaks_, peaks_of(recorder->loads(), system_.joints.size())));
+    if (coarse_) peaks_before_ = peaks_of(coarse_->loads(), system_.joints.size());
     coarse_ = std::move(fine_);
     if (coarse_) coarse_->keep_forces_only();
     fine_ = std::move(recorder);
@@ -231,7 +231,8 @@ class Passes {
     // Other methods on free bodies step over kinks, near which their curves are only approximate.
     if ((choice_.method != "radau" && !has_constraints(choice_.equations)) || coarse.t.back() != fine.t.back()) return;
     include_peaks(fine_->loads(), kNegligible, difference_);
-    include_peak_differences(peaks_before_, coarse_peaks_, fine_peaks_, share_, difference_);
+    const std::size_t joints = system_.joints.size();
+    include_peak_differences(peaks_before_, peaks_of(coarse_->loads(), joints), peaks_of(fine_->loads(), joints), share_, difference_);
   }
 
   // Decides whether another pass is made, and sets its tolerance.
@@ -452,7 +453,7 @@ class Passes {
   double fine_tolerance_ = 0, coarse_tolerance_ = 0, coarse_before_ = 0;  // of the last two passes; of the coarser one in the previous comparison
   // Of the last two passes.
   PassDifference difference_;
-  JointPeaks peaks_before_, coarse_peaks_, fine_peaks_;  // of the last three passes
+  JointPeaks peaks_before_;  // of the pass before coarse_
   std::vector<double> relative_difference_;  // of each joint
   double share_while_small_ = 1;                      // share_ of differences that are still far from saturation
   double share_ = 1, error_ = 0, error_before_ = 0;  // of the last two comparisons

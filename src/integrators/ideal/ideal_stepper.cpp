@@ -175,13 +175,13 @@ bool IdealStepper::find_jump(double h) {
   if (find(stage_)) return true;
   State between = begin_;
   for (int s = 1; s + 1 < kStages; ++s) {
-    put_stage(s, h, between);
+    compute_stage_values(s, h, between);
     if (find(between)) break;
   }
   return false;
 }
 
-void IdealStepper::put_stage(int s, double h, State& stage) const {
+void IdealStepper::compute_stage_values(int s, double h, State& stage) const {
   stage.t = begin_.t + kC[s] * h;
   for (std::size_t i = 0; i < stage.q.size(); ++i) {
     S::Vec q = S::Vec::Zero(), v = S::Vec::Zero();
@@ -239,7 +239,7 @@ bool IdealStepper::evaluate_stages(double h) {
   kv_[0] = begin_.a;
   power_[0] = {begin_.supply_power, begin_.loss_power};
   for (int s = 1; s < kStages; ++s) {
-    put_stage(s, h, stage_);
+    compute_stage_values(s, h, stage_);
     ++counters_.evaluations;
     ++counters_.factorizations;
     if (closed_ ? !onto_branch() : !equations_.complete(stage_)) return false;

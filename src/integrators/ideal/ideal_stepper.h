@@ -54,8 +54,8 @@ class IdealStepper final : public Stepper {
   double error(double h);
   double share_of_step(double h, double t_end);
   bool find_jump(double h);
-  /// Before it is closed: from the rates of the stages before it.
-  void put_stage(int s, double h, State& stage) const;
+  /// Position and velocity of stage s, from the rates of the stages before it; its constraints are not closed yet.
+  void compute_stage_values(int s, double h, State& stage) const;
   void grow_scale();
   void foresee_loads(double h);
   void raise_above_rounding();

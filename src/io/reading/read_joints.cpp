@@ -157,8 +157,7 @@ void complain_of(const Fault& fault, const Record& record, ModelReading& reading
 
 // Whether the values of the type's keys are consistent.
 void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Record& record, const Node& stated_joint, const Joint& joint) {
-  const std::string stops = word_ahead(stated_joint, "stops");
-  if (type.has_ends && (stops.empty() || stops == "none"))
+  if (type.has_ends && stated_joint.table() != nullptr && (stated_joint.table()->find("stops") == nullptr || word_ahead(stated_joint, "stops") == "none"))
     reading.complaints.add(record.spot("stops"), record.path, "no stops", "the " + std::string(type.free.front().name) + " ends somewhere", "stops = \"hard\" or \"cushioned\", with stop_stiffness");
   const bool complete = std::all_of(type.keys.begin(), type.keys.end(), [&](const KeyInfo& key) { return !key.required || joint.geometry.contains(std::string(key.key)); });
   if (type.fault == nullptr || !complete) return;

@@ -58,17 +58,18 @@ std::vector<std::string> words_of_catalog(std::string_view catalog) {
     for (const LawInfo& law : law_catalog())
       if (law.role == role) words.emplace_back(law.word);
   };
+  const auto list_optional = [&](LawRole role) {
+    list(role);
+    words.emplace_back("none");
+  };
   if (catalog == "laws") {
     list(LawRole::kHolds);
   } else if (catalog == "friction laws") {
-    list(LawRole::kFriction);
-    words.emplace_back("none");
+    list_optional(LawRole::kFriction);
   } else if (catalog == "stop laws") {
-    list(LawRole::kStops);
-    words.emplace_back("none");
+    list_optional(LawRole::kStops);
   } else if (catalog == "detent laws") {
-    list(LawRole::kDetent);
-    words.emplace_back("none");
+    list_optional(LawRole::kDetent);
   } else if (catalog == "joint types") {
     for (const JointTypeInfo& type : joint_type_catalog()) words.emplace_back(type.word);
   } else {
