@@ -442,5 +442,14 @@ TEST(LinearContact, TouchesMuchShorterThanTheFlightKeepTheirEnergy) {
     }
 }
 
+// Roundoff puts surfaces that touch as assembled just apart or just into each other; they count either way.
+TEST(Contact, SurfacesThatTouchHoldWhateverTheRoundoff) {
+  for (const char* slope : {"30 deg", "45 deg", "50 deg", "60 deg", "70 deg"}) {
+    const CheckReport report = check_model(reference::test_model("ladder_on_a_wall", {"parameters.slope=\"" + std::string(slope) + "\""}));
+    EXPECT_EQ(report.mobility.mobility, 1) << slope;
+    EXPECT_EQ(report.mobility.constraints, 2) << slope;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -249,6 +249,31 @@ TEST(Starts, AContactThatAStopKeepsOpenStartsApart) {
   }
 }
 
+// What a motor that yields and a stop carry together follows from both stiffnesses. The stop is stiffer by up to 5000 times: the motor's share is found with it, and the arm, its pin
+// and the run's largest force are those of an arm that rests.
+TEST(Starts, AMotorSharesItsLoadWithTheStopAtWhichItBegins) {
+  constexpr double kWeight = 2 * 9.80665, kStop = 1e5;
+  for (const double motor : {20.0, 200.0, 400.0, 1000.0, 1e5})
+    for (const char* friction : {"coulomb", "none"}) {
+      const Trajectory run = completed(test_model("arm_on_its_stop", {"motor.drive.stiffness=" + std::to_string(motor), "simulate.duration=0.4", "joint.pin.pin_radius=0.01", "joint.pin.friction=\"" + std::string(friction) + "\""}));
+      const double turned = -kWeight * 0.2 / (kStop + motor);
+      const bool rubs = std::string(friction) == "coulomb";  // stuck, friction takes a part of the load
+      if (!rubs) {
+        EXPECT_NEAR(value(run, 0, "body.arm.angle"), turned, 2e-4 * std::abs(turned)) << motor;  // a motor with a time constant of 0.2 s has not quite settled
+        EXPECT_NEAR(value(run, 0, "joint.pin.stop_moment"), -kStop * turned, 2e-4 * kStop * std::abs(turned)) << motor;
+      }
+      EXPECT_NEAR(run.joints[0].peak, kWeight, 1e-4) << motor << friction;
+    }
+}
+
+// The same where the motor is in another joint of the loop. The motor's target moves the crank 0.05 deg off its stop as assembled, and the load moves it back: nothing moves.
+TEST(Starts, AFourBarRestsOnAStopBesideItsMotor) {
+  const Trajectory run = completed(test_model("four_bar_on_its_stop"));
+  for (const LoadSummary& joint : run.joints) EXPECT_NEAR(joint.peak, joint.rms, 1e-5 * joint.peak) << joint.name;
+  EXPECT_NEAR(value(run, 0, "joint.A.stop_depth"), 9.92e-5, 1e-6);
+  EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("start at a stop, to which the loads of t = 0 push them: A") != std::string::npos; }));
+}
+
 // A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.
 TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   const std::string notes = notes_of(reference::test_model("pump_jack_with_loose_saddle"));

@@ -28,7 +28,8 @@ std::vector<ConstraintRow> constraint_rows(const System& system, const std::vect
     const JointData& joint = system.joints[j];
     const JointKinematics& r = joint_kinematics[j];
     Response law = respond(joint.law, r.gap, S::Vec::Zero());
-    if (!(law.stiffness.diagonal().maxCoeff() > 0)) law = respond(joint.law, r.gap + S::Vec::Constant(reach), S::Vec::Zero());
+    for (const double way : {reach, -reach})  // a rope is taut beyond its length, surfaces press below a distance of zero
+      if (!(law.stiffness.diagonal().maxCoeff() > 0)) law = respond(joint.law, r.gap + S::Vec::Constant(way), S::Vec::Zero());
     for (int k = 0; k < S::kDof; ++k) {
       if (!(law.stiffness(k, k) > 0)) continue;
       rows.push_back(

@@ -109,7 +109,9 @@ std::vector<std::array<double, 2>> misfits(const System& system, const Vecs& q) 
   return out;
 }
 
-bool is_broken(const std::array<double, 2>& misfit, double size) { return misfit[0] > 2e-3 * size || misfit[1] > 0.02; }
+constexpr double kOpenLength = 2e-3, kOpenAngle = 0.02;  // a joint is open that misses by more: as a fraction of the mechanism's size; [rad]
+
+bool is_broken(const std::array<double, 2>& misfit, double size) { return misfit[0] > kOpenLength * size || misfit[1] > kOpenAngle; }
 
 // Whether all joints except the open ones are closed, judged by these misfits.
 bool all_closed(const std::vector<std::array<double, 2>>& left, const std::vector<bool>& open, double size) {
@@ -118,8 +120,11 @@ bool all_closed(const std::vector<std::array<double, 2>>& left, const std::vecto
   return true;
 }
 
-std::string length_or_angle(const std::array<double, 2>& misfit, double size) {
-  return misfit[0] > 2e-3 * size ? fmt::format("{:.4g} m", misfit[0]) : fmt::format("{:.4g} rad", misfit[1]);
+// What is missing for a joint to be closed.
+std::string length_and_angle(const std::array<double, 2>& misfit, double size) {
+  const bool open = misfit[0] > kOpenLength * size, turned = misfit[1] > kOpenAngle;
+  const std::string length = fmt::format("{:.4g} m", misfit[0]), angle = fmt::format("{:.4g} rad", misfit[1]);
+  return open && turned ? length + " and " + angle : open ? length : angle;
 }
 
 // A loop that does not close leaves its misfit where joints are soft, which may be in another loop. The loop consists of the joints that, opened
@@ -135,7 +140,7 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
     PositionSearch(model, system, opened).run(trial);
     const auto left = misfits(system, trial);
     if (!all_closed(left, opened, size)) continue;
-    if (lacks.empty()) lacks = length_or_angle(left[j], size);
+    if (lacks.empty()) lacks = length_and_angle(left[j], size);
     names += (names.empty() ? "" : ", ") + system.joints[j].name;
   }
   return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open, all others close, leaving a gap of about {}", names, lacks);
@@ -254,8 +259,19 @@ std::vector<bool> within_play(const System& system, const Vecs& q) {
   return out;
 }
 
+// Throws if the displacement of a joint is not a number: no misfit could be compared with anything.
+void demand_defined(const System& system, const Vecs& q) {
+  const std::vector<JointKinematics> r = kinematics_at_rest(system, q);
+  for (std::size_t j = 0; j < r.size(); ++j) {
+    if (r[j].gap.allFinite()) continue;
+    throw AssemblyError(fmt::format("joint {} ({}) has no displacement at the positions as assembled: it is not a number{}", system.joints[j].name, system.joints[j].type,
+                                    system.joints[j].edge ? ". The height of its edge is not finite near the contact: try if(..., ..., ...) to continue the height beyond its range" : ""));
+  }
+}
+
 // Throws if joints stay open, and notes smaller misfits, unless a small change of the held coordinates removes these.
 void demand_closed(const Model& model, const System& system, Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
+  demand_defined(system, q);
   const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
   constexpr int kMostListed = 20;         // number of joints that the message names
@@ -277,8 +293,8 @@ void demand_closed(const Model& model, const System& system, Vecs& q, const std:
   std::string list;
   for (std::size_t i = 0; i < broken.size() && i < kMostListed; ++i) {
     const JointData& joint = system.joints[broken[i]];
-    list += joint.servo >= 0 ? fmt::format("\n  motor {} has a target that is {} away from the position of its joint", joint.name, length_or_angle(left[broken[i]], size))
-                             : fmt::format("\n  joint {} ({}) stays open by {}", joint.name, joint.type, length_or_angle(left[broken[i]], size));
+    list += joint.servo >= 0 ? fmt::format("\n  motor {} has a target that is {} away from the position of its joint", joint.name, length_and_angle(left[broken[i]], size))
+                             : fmt::format("\n  joint {} ({}) stays open by {}", joint.name, joint.type, length_and_angle(left[broken[i]], size));
   }
   if (broken.size() > kMostListed) list += fmt::format("\n  and {} more", broken.size() - kMostListed);
   const bool only_motors = std::all_of(broken.begin(), broken.end(), [&](std::size_t j) { return system.joints[j].servo >= 0; });

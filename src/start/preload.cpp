@@ -189,6 +189,15 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   if (!is_finite(state) || moves_too_far(system, unloaded, state)) state = unloaded;  // near a singular position joints would deflect by more than the mechanism's size, and a soft thread would turn its drum many times
 }
 
+void find_forces_and_accelerations(const System& system, State& state) {
+  std::vector<Planar::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, state.t, state.q, state.v, m, r);
+  find_law_rates(system, state);
+  find_joint_forces(system, state);
+  find_accelerations(system, m, r, state);
+}
+
 double characteristic_length(const System& system, const Vecs& q) { return std::max(mechanism_size(system, q), system.largest_radius_of_gyration()); }
 
 template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);

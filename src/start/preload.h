@@ -25,6 +25,9 @@ bool is_open_contact(const BasicLaw<S>& law, const typename S::Vec& gap, double 
   return law.penetration(S::Vec::Zero()) == 0 && law.penetration(gap) < -kAsStated * size;
 }
 
+/// The rates of the laws' states, the joint forces and the accelerations of a state whose positions, gaps and law states are known.
+void find_forces_and_accelerations(const System& system, State& state);
+
 /// Accelerations caused by the actual joint forces at the state's gaps, and the corresponding gap accelerations.
 template <class S>
 void balance_start(const BasicSystem<S>& system, BasicState<S>& state);

@@ -81,21 +81,45 @@ void note_held_that_moved(const Model& model, const System& system, const Vecs& 
                   (at_rest ? "; start = \"settled\" leaves them in place and reports what is not in equilibrium there" : "; start = \"unloaded\" leaves them in place"));
 }
 
+// Where surfaces with play are as assembled.
+void note_play(const Model& model, Assembly& assembly) {
+  if (model.simulate.start != Start::kAssembled) return;
+  if (const std::string loose = names_of_joints_in_play(assembly.system, assembly.state); !loose.empty())
+    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike its sides first: the largest forces may be those of the start; start = \"seated\" begins where the loads press them");
+}
+
+// The assembled mechanism under its loads, its joints on their slow motion. `stops` press from the first instant.
+Assembly with_loads(const Model& model, Assembly assembly, const std::vector<StopLock>& stops, double known_span) {
+  const std::optional<System> with_stops = stops.empty() ? std::nullopt : std::optional(assembly.system);
+  if (with_stops) assembly.system = with_locks_for_stops(*with_stops, stops);
+  std::optional<BasicSettledStart<Planar>> unloaded;
+  if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
+  start_forces(assembly.system, true, assembly.state);
+  note_play(model, assembly);
+  const double duration = model.simulate.duration;
+  if (unloaded) assembly.system = settle_with_stiction(std::move(assembly.system), *unloaded, duration, known_span, assembly);
+  else settle_joints(assembly.system, duration, known_span, assembly);
+  if (with_stops) put_stops_back(*with_stops, stops, assembly);
+  return assembly;
+}
+
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
   Assembly assembly = assemble_unloaded(model, std::move(system));
   const bool loaded = is_preloaded(model.simulate.start);
   const Vecs assembled = assembly.state.q;
   if (model.simulate.start == Start::kSeated) note_seated(assembly);
-  if (loaded) press_touching_surfaces(assembly);
-  std::optional<BasicSettledStart<Planar>> unloaded;
-  if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
-  start_forces(assembly.system, loaded, assembly.state);
-  if (const std::string loose = model.simulate.start == Start::kAssembled ? names_of_joints_in_play(assembly.system, assembly.state) : ""; !loose.empty())
-    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike its sides first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
-  if (!loaded || assembly.system.joints.empty()) return assembly;
-  const double duration = model.simulate.duration;
-  if (unloaded) assembly.system = settle_with_stiction(std::move(assembly.system), *unloaded, duration, known_span, assembly);
-  else settle_joints(assembly.system, duration, known_span, assembly);
+  std::vector<StopLock> stops = loaded ? press_touching_surfaces(assembly) : std::vector<StopLock>{};
+  if (!loaded || assembly.system.joints.empty()) {
+    start_forces(assembly.system, loaded, assembly.state);
+    note_play(model, assembly);
+    return assembly;
+  }
+  if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_stops(); })) {
+    Assembly started = with_loads(model, assembly, stops, known_span);
+    assembly = hold_at_stops_passed(assembly, started, stops) ? with_loads(model, std::move(assembly), stops, known_span) : std::move(started);
+  } else {
+    assembly = with_loads(model, std::move(assembly), stops, known_span);
+  }
   note_far_deflection(assembly.system, assembled, assembly.state, assembly.notes);
   note_held_that_moved(model, assembly.system, assembled, assembly.state, assembly.notes);
   return assembly;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "dynamics/inverse_dynamics.h"
 #include "kinematics/position_search.h"
 #include "laws/friction/stick_slip.h"
-#include "laws/law_part.h"
+#include "start/locks.h"
 #include "start/preload.h"
 #include "system/system.h"
 
@@ -20,26 +19,6 @@ using S = Planar;
 // Stiffness of a soft lock, as a fraction of a firm one's: joints deflect under their loads, and the lock carries what they do not balance. With 1e-4 the locks of
 // tests/models/garage_door_at_rest.toml still carry 31 N instead of 16 N, with 1e-2 more than friction can; 1e-8 changes the force of its rope by 4e-4.
 constexpr double kSoft = 1e-6;
-
-// Holds one component at its present value.
-struct LockLaw {
-  static constexpr std::string_view kWord = "lock";
-  int component = 0;
-  double k = 1, at = 0;  // [N/m or N*m/rad]; the gap at which it holds
-  double preload = 0;    // force there [N or N*m]
-
-  template <class T>
-  T force_at(const T& gap) const {
-    return T(preload) - k * (gap - T(at));
-  }
-  template <class T>
-  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
-    const T off = in.gap[component] - T(at);
-    out.force[component] = force_at(in.gap[component]);
-    out.energy = 0.5 * k * (off * off) - preload * off;
-  }
-  Planar::Vec engaged_stiffness() const { return k * Planar::Vec::Unit(component); }
-};
 
 // A joint held by friction, and the lock that replaces the friction.
 struct LockedJoint {
@@ -67,26 +46,6 @@ std::vector<LockedJoint> joints_to_hold(const System& system, const std::vector<
   return out;
 }
 
-// The locks are joints of their own, after the others: anything else that acts in the component that they hold, such as pressure in a cylinder, is a load
-// on them.
-System with_locks(const System& system, const std::vector<LockedJoint>& held) {
-  System locked = system;
-  for (const LockedJoint& one : held) {
-    const JointData& joint = system.joints[one.joint];
-    JointData added;
-    added.name = joint.name;
-    added.type = joint.type;
-    added.at = joint.at;
-    added.displacement = joint.displacement;
-    added.law = BasicLaw<S>(one.lock);
-    added.free_mask = S::Vec::Ones() - S::Vec::Unit(one.lock.component);
-    added.held[one.lock.component] = true;
-    locked.joints.push_back(std::move(added));
-  }
-  locked.finish();
-  return locked;
-}
-
 // Whether its direction of slip is prescribed although it has no speed yet. Bristles find theirs by themselves.
 bool knows_its_way(const JointData& joint, double t, const S::Vec& gap) {
   std::vector<double> at_rest(static_cast<std::size_t>(joint.law.n_states()));
@@ -96,25 +55,14 @@ bool knows_its_way(const JointData& joint, double t, const S::Vec& gap) {
 
 // Computes the locks' forces from their gaps, which follow those of the system's own joints, and removes the locks from the state.
 void take_off_locks(int n_joints, std::vector<LockedJoint>& held, BasicSettledStart<S>& start) {
-  State& state = start.state;
-  const S::Vec* gap = state.gap.data() + n_joints;
+  const S::Vec* gap = start.state.gap.data() + n_joints;
   for (LockedJoint& one : held) one.force = one.lock.force_at((*gap++)[one.lock.component]);
-  for (VecsOf<S>* of_joints : {&state.gap, &state.gap_rate, &state.gap_accel, &state.force, &start.effective_mass})
-    if (!of_joints->empty()) of_joints->resize(static_cast<std::size_t>(n_joints));
+  remove_locks(n_joints, start);
 }
 
 bool stick(const System& system, const LockedJoint& one, State& state) {
   const JointData& joint = system.joints[one.joint];
   return joint.law.set_stuck(law_point(system, one.joint, state), one.force, state.law_state.data() + joint.first_state);
-}
-
-void find_motion(const System& system, State& state) {
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
-  kinematics_at(system, state.t, state.q, state.v, m, r);
-  find_law_rates(system, state);
-  find_joint_forces(system, state);
-  find_accelerations(system, m, r, state);
 }
 
 // Firm locks carry all that would deflect a rope or another soft joint between them. If friction can hold the mechanism once that has deflected, it rests:
@@ -133,7 +81,7 @@ bool rests_by_friction(const System& system, std::vector<LockedJoint> held, cons
   take_off_locks(system.n_joints(), held, trial);
   rest_laws(system, trial.state);
   if (!all_stick()) return false;
-  find_motion(system, trial.state);
+  find_forces_and_accelerations(system, trial.state);
   start = std::move(trial);
   return true;
 }
@@ -187,7 +135,7 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
     if (!all_stick && slipping.empty() && held.size() > 1 && rests_by_friction(system, held, unloaded, duration, known_span, start)) return system;
     again = std::erase_if(held, slips) > 0;
     if (again) continue;
-    find_motion(system, state);
+    find_forces_and_accelerations(system, state);
     start = std::move(trial);
   }
   return system;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dynamics/inverse_dynamics.h"
@@ -11,6 +14,7 @@
 #include "laws/bushing.h"
 #include "laws/contact/gap_contact.h"
 #include "laws/law_tangents.h"
+#include "mobility/constraint_rows.h"
 #include "start/preload.h"
 #include "start/seat.h"
 
@@ -19,6 +23,7 @@ namespace {
 
 using S = Planar;
 
+constexpr int kTangents = 3;      // passes in which the tangents of stops follow their loads
 constexpr double kMostAjar = 1e-4;  // upper limit on the opening of contacts, as a fraction of the mechanism's size: if soft joints opened them further, it would no longer be the assembled mechanism
 
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
@@ -27,6 +32,7 @@ struct Touch {
   double sign, stiffness;  // [N/m] or [N*m/rad], under the loads of the start
   S::Vec gap;              // where they touch
   bool is_stop;            // in a component that the joint leaves free
+  double depth = 0;        // under its load, once that is known
   double beside = 0;       // other forces there on the second body, such as the pressure in a cylinder [N] or [N*m]
 };
 
@@ -148,9 +154,14 @@ std::vector<int> others(const std::vector<Touch>& all, const std::vector<Touch>&
   return joints;
 }
 
-}  // namespace
+// What a start's touching surfaces turn out to do: those that press, and the joints whose surfaces would have to pull.
+struct Pressing {
+  std::vector<Touch> pressed;
+  std::vector<int> idle;
+};
 
-std::vector<int> press_touching_surfaces(const System& system, State& state) {
+// `state` stays as it is if no forces are found.
+Pressing press(const System& system, State& state) {
   const std::vector<Touch> all = find_touches(system, state);
   std::vector<Touch> touches = all;
   State carried = state;
@@ -171,23 +182,133 @@ std::vector<int> press_touching_surfaces(const System& system, State& state) {
     start_forces(system, false, carried);
   }
   for (const Touch& touch : all) carried.gap[touch.joint][touch.k] = gap_at(touch, -ajar)[touch.k];
-  for (const Touch& touch : touches)
-    carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
+  for (Touch& touch : touches) {
+    touch.depth = depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint]));
+    carried.gap[touch.joint][touch.k] = gap_at(touch, touch.depth)[touch.k];
+  }
   BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
   state.q = carried.q;
   state.v = carried.v;
-  return others(all, touches);
+  std::vector<int> idle = others(all, touches);
+  return {std::move(touches), std::move(idle)};
 }
 
-void press_touching_surfaces(Assembly& assembly) {
+// In the place of a stop, with as many states.
+struct NoStop {
+  static constexpr std::string_view kWord = "no stop";
+  static constexpr bool kHolds = false, kRubs = false;
+  int states = 0;
+
+  int n_states() const { return states; }
+  template <class T>
+  void evaluate(const LawInput<T>&, LawOutput<T>&) const {}
+};
+
+// The law with `replacement(i)` for those of its parts i that hold nothing, as stops do; its states keep their order, as holding parts come first.
+template <class Replacement>
+BasicLaw<S> with_other_parts(const BasicLaw<S>& law, const Replacement& replacement) {
+  BasicLaw<S> out = law.holding_law();
+  for (std::size_t i = 0; i < law.parts().size(); ++i)
+    if (!law.parts()[i]->holds()) out.add(replacement(i));
+  return out;
+}
+
+// Sets the lock along the tangent of its stop's law at this depth.
+void set_tangent(const System& system, double depth, StopLock& stop) {
+  Touch touch{stop.joint, stop.lock.component, stop.sign, 0, stop.stop * S::Vec::Unit(stop.lock.component), true};
+  touch.beside = respond_at_rest(system.joints[stop.joint].law, touch, 0).force[touch.k];
+  const BasicResponse<S> here = respond_at_rest(system.joints[stop.joint].law, touch, depth);
+  stop.lock = {touch.k, here.stiffness(touch.k, touch.k), gap_at(touch, depth)[touch.k], here.force[touch.k] - touch.beside};
+}
+
+StopLock lock_for(const System& system, const Touch& touch) {
+  StopLock out{touch.joint, {touch.k}, touch.gap[touch.k], touch.sign};
+  set_tangent(system, touch.depth, out);
+  return out;
+}
+
+// Sets all locks along the tangents of their stops at the loads that the locks find, and removes those that would have to pull.
+void find_tangents(const System& system, const State& state, std::vector<StopLock>& stops) {
+  for (int pass = 0; pass < kTangents && !stops.empty(); ++pass) {
+    State trial = state;
+    start_forces(with_locks_for_stops(system, stops), true, trial);
+    for (std::size_t i = stops.size(); i-- > 0;) {
+      const double depth = stops[i].sign * (trial.gap[system.joints.size() + i][stops[i].lock.component] - stops[i].stop);
+      if (depth > 0) set_tangent(system, depth, stops[i]);
+      else stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
+}  // namespace
+
+System with_locks_for_stops(const System& system, const std::vector<StopLock>& stops) {
+  System out = with_locks(system, stops);
+  for (const StopLock& stop : stops) {
+    const BasicLaw<S>& law = system.joints[stop.joint].law;
+    out.joints[stop.joint].law = with_other_parts(law, [&law](std::size_t i) { return law.parts()[i]->stops() ? BasicLaw<S>(NoStop{law.parts()[i]->n_states()}).parts().front()->clone() : law.parts()[i]->clone(); });
+  }
+  out.finish();
+  return out;
+}
+
+void put_stops_back(const System& system, const std::vector<StopLock>& stops, Assembly& assembly) {
+  const System started = std::exchange(assembly.system, system);  // friction has noted in its law which way it slips
+  for (int j = 0; j < system.n_joints(); ++j) assembly.system.joints[j].law = started.joints[j].law;
+  for (const StopLock& stop : stops) {
+    const BasicLaw<S>&real = system.joints[stop.joint].law, &law = started.joints[stop.joint].law;
+    assembly.system.joints[stop.joint].law = with_other_parts(law, [&](std::size_t i) { return (real.parts()[i]->stops() ? real : law).parts()[i]->clone(); });
+  }
+  assembly.system.finish();
+  remove_locks(system.n_joints(), assembly);
+  State& state = assembly.state;
+  State at_rest = state;
+  rest_laws(assembly.system, at_rest);
+  for (const StopLock& stop : stops) {
+    int first = system.joints[stop.joint].first_state;
+    for (const auto& part : assembly.system.joints[stop.joint].law.parts()) {
+      if (part->stops()) std::copy_n(at_rest.law_state.begin() + first, part->n_states(), state.law_state.begin() + first);
+      first += part->n_states();
+    }
+  }
+  find_forces_and_accelerations(assembly.system, state);
+}
+
+std::vector<StopLock> press_touching_surfaces(Assembly& assembly) {
   const System& system = assembly.system;
-  std::vector<int> idle = press_touching_surfaces(system, assembly.state);
+  auto [pressed, idle] = press(system, assembly.state);
+  std::vector<StopLock> locks;
+  for (const Touch& touch : pressed)
+    if (touch.is_stop) locks.push_back(lock_for(system, touch));
+  find_tangents(system, assembly.state, locks);
   std::erase_if(idle, [&system](int j) { return system.joints[static_cast<std::size_t>(j)].law.has_stops(); });  // as in a cylinder that begins to extend
-  if (idle.empty()) return;
+  if (idle.empty()) return locks;
   std::string note = "surfaces that touch at the start without pressing on each other: " + names_of_joints(system, idle);
   if (std::any_of(idle.begin(), idle.end(), [&system](int j) { return system.joints[static_cast<std::size_t>(j)].type != "cam"; }))
     note += "; if one of them should press, the other side of its edge may be meant (the first marker's axis turned by 180 deg: it presses along +y)";
   assembly.notes.push_back(std::move(note));
+  return locks;
+}
+
+bool hold_at_stops_passed(Assembly& unloaded, const Assembly& started, std::vector<StopLock>& stops) {
+  const System& system = unloaded.system;
+  const std::vector<JointKinematics> before = kinematics_at_rest(system, unloaded.state.q), now = kinematics_at_rest(system, started.state.q);
+  const std::size_t known = stops.size();
+  std::string names;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    const std::optional<StopBreach> breach = law.has_stops() ? law.breach(now[j].gap) : std::nullopt;
+    if (!breach || !(breach->depth > ContactForce::kUsualDepth) || law.breach(before[j].gap)) continue;
+    if (std::any_of(stops.begin(), stops.end(), [j](const StopLock& stop) { return stop.joint == j; })) continue;
+    StopLock stop{j, {breach->component}, breach->stop, breach->upper ? 1.0 : -1.0};
+    set_tangent(system, ContactForce::kUsualDepth, stop);
+    stops.push_back(stop);
+    names += (names.empty() ? "" : ", ") + system.joints[j].name;
+  }
+  if (names.empty()) return false;
+  find_tangents(system, unloaded.state, stops);
+  if (stops.size() > known) unloaded.notes.push_back("joints that start at a stop, to which the loads of t = 0 push them: " + names);
+  return true;
 }
 
 }  // namespace pintle

@@ -5,13 +5,14 @@
 //   g = h / v                            Eq. (1.3)
 //   c = c_0 (3 x^2 - 2 x^3),  x = min(1, d/L)                  Eq. (1.4), if the damping grows over a cushion's length L; else c = c_0
 //
-// v is the approach speed: d' at the touch, but at least the floor, kept for as long as the bodies touch. It is a state of the law, 0 while they
+// v is the approach speed: d' at the touch, kept for as long as the bodies touch; in (1.3) it is at least the floor. It is a state of the law, 0 while they
 // are apart. Where N < 0 the bodies would attract each other: N = 0 instead, and the remaining elastic power is lost, unless attraction is wanted.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "laws/law_math.h"
@@ -87,7 +88,7 @@ struct ContactForce {
   }
   /// Updates the approach speed when that border has been crossed, at this rate.
   void cross(int border, double rate, double& approach) const {
-    if (border == kTouch) approach = std::max(rate, least_approach);
+    if (border == kTouch) approach = std::max(rate, std::numeric_limits<double>::min());  // however slow, they touch now
     if (border == kLetGo) approach = 0;
   }
   /// The stiffness at a depth, for callers that only need to know how stiff a joint is [N/m].

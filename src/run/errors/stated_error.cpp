@@ -103,7 +103,8 @@ void state_error(const Measures<S>& measures, const PassDifference& difference, 
   const double force = std::max(share * difference.force[j], damped_force), couple = std::max(share * difference.couple[j], damped_couple);
   joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // a force that is roundoff alone is not known at all
   joint.moment_error_estimate = couple;
-  joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
+  const bool carries_nothing = peak == 0 && peak_couple == 0 && force == 0 && couple == 0;
+  joint.relative_error_estimate = carries_nothing ? 0 : std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
 }
 
 template <class S>

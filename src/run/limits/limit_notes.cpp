@@ -172,8 +172,8 @@ std::string note_on_lag(const System& system, const Trajectory& run, const Drive
   const bool angle = drive.driven == 2;
   const double unit = angle ? 360 / kTurn : 1000;
   const char* unit_name = angle ? "deg" : "mm";
-  return fmt::format("motor {} is {:.3g} {} from where it should be at t = {:.4g} s, when it pushes with {:.5g} {}: {:.2g} of the {:.3g} {} that it travels. Raise its stiffness, unless it is meant to yield", drive.name, lag * unit,
-                     unit_name, peak.t, peak.effort, angle ? "N*m" : "N", lag / travel, travel * unit, unit_name);
+  return fmt::format("motor {} is {:.3g} {} from where it should be at t = {:.4g} s, when it pushes with {:.5g} {}; it travels {:.3g} {}. Raise its stiffness, unless it is meant to yield", drive.name, lag * unit,
+                     unit_name, peak.t, peak.effort, angle ? "N*m" : "N", travel * unit, unit_name);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ void add(const Turning& pin, double t0, double t1, int steps, DutySums& sums) {
       force.insert(force.end(), {x, y});
     }
     CurveGrid::AtPoints squares;
-    for (std::size_t p = 0; p < squares.size(); ++p) squares[p] = square_at(grid, force.data(), 2, 2, static_cast<double>(p) / CurveGrid::kIntervals);
+    for (std::size_t p = 0; p < squares.size(); ++p) squares[p] = weighted_square(grid, grid.at_point(static_cast<int>(p)), force.data(), 2, 2);
     add_duty(grid, {force.data(), 2, 2}, squares, turn, h, sums);
   }
 }

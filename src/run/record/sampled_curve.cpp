@@ -107,17 +107,16 @@ CurveGrid::Weights CurveGrid::weights(double x) const {
   return out;
 }
 
-double value_at(const CurveGrid& grid, const double* samples, int stride, double x) {
-  const CurveGrid::Weights weight = grid.weights(x);
+double weighted_sum(const CurveGrid& grid, const CurveGrid::Weights& weight, const double* samples, int stride) {
   double value = 0;
   for (int i = 0; i < grid.n(); ++i) value += weight[static_cast<std::size_t>(i)] * samples[i * stride];
   return value;
 }
 
-double square_at(const CurveGrid& grid, const double* samples, int stride, int n, double x) {
+double weighted_square(const CurveGrid& grid, const CurveGrid::Weights& weight, const double* samples, int stride, int n) {
   double square = 0;
   for (int c = 0; c < n; ++c) {
-    const double component = value_at(grid, samples + c, stride, x);
+    const double component = weighted_sum(grid, weight, samples + c, stride);
     square += component * component;
   }
   return square;
@@ -146,7 +145,7 @@ CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int 
     along_grid(grid, samples + c, stride, component);
     for (std::size_t p = 0; p < square.size(); ++p) square[p] += component[p] * component[p];
   }
-  const auto at = [&](double x) { return square_at(grid, samples, stride, n, x); };
+  const auto at = [&](double x) { return weighted_square(grid, grid.weights(x), samples, stride, n); };
   if constexpr (kind == Sums::kWithSign) {
     sums.integral += h * sum_of(kAll, component);
   } else {

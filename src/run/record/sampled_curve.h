@@ -60,10 +60,12 @@ inline void along_grid(const CurveGrid& grid, const double* samples, int stride,
 /// The largest of the values, or the maximum of the parabola through it and its neighbours if that is larger.
 double largest_on_grid(const CurveGrid::AtPoints& value);
 
-/// The polynomial through `samples[i * stride]` at any fraction of the step.
-double value_at(const CurveGrid& grid, const double* samples, int stride, double x);
-/// Square of the magnitude of the vector with the components `samples[i * stride + c]`, c < n, at any fraction of the step.
-double square_at(const CurveGrid& grid, const double* samples, int stride, int n, double x);
+/// The polynomial through `samples[i * stride]` where the samples have these weights.
+double weighted_sum(const CurveGrid& grid, const CurveGrid::Weights& weight, const double* samples, int stride);
+/// The same at any fraction of the step.
+inline double value_at(const CurveGrid& grid, const double* samples, int stride, double x) { return weighted_sum(grid, grid.weights(x), samples, stride); }
+/// Square of the magnitude of the vector with the components `samples[i * stride + c]`, c < n, where the samples have these weights.
+double weighted_square(const CurveGrid& grid, const CurveGrid::Weights& weight, const double* samples, int stride, int n);
 
 /// Integral over a step, in units of the step, by Romberg's rule on every point, or on every second one. theory/time Eq. (5.3)
 struct RombergOnGrid {
