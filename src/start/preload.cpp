@@ -1,7 +1,10 @@
 #include "start/preload.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -14,6 +17,9 @@
 namespace pintle {
 namespace {
 
+constexpr double kSettles = 1e-3;    // change of gaps by the last pass, as a fraction of the largest force: passes with more are repeated with acceleration
+constexpr double kConverges = 1e-9;  // the same: accelerated passes with less have converged; others are not used
+constexpr int kFreePasses = 8;       // number of first accelerated passes in which forces may grow
 constexpr double kAbsurd = 100;  // ratio of the largest forces of two passes: the passes diverge, whatever the gaps. Starts that converge grow by 3 (four leaf springs in a row), those that do not by 2600 (five): with 50 and with 200 these give up after the same 2 s instead of 24 s
 
 // Springs replace laws that give no force where the joints are; joints that start free or touch nothing are left alone.
@@ -94,6 +100,62 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
   find_gap_accelerations(system, r, state);
 }
 
+// The gaps of the passes below are those of a fixed-point iteration, which contracts by the ratio of the stiffness that the loads have, as springs, to that of the joints which
+// carry the rest. D. G. Anderson's acceleration (J. ACM 12 (1965) 547-560) also finds the fixed point of an iteration that does not contract, as where a motor is softer than the
+// spring beside it. theory/assembly Eq. (3.8)
+template <class S>
+class GapAcceleration {
+ public:
+  // `before`: the gaps of a pass; `next`: those that it has found for the next one, for which better ones are found; `weight`: force per gap.
+  void improve(const VecsOf<S>& before, const VecsOf<S>& weight, VecsOf<S>& next) {
+    const Eigen::Index n = static_cast<Eigen::Index>(next.size()) * S::kDof;
+    Eigen::VectorXd found(n), change(n);
+    for (std::size_t j = 0; j < next.size(); ++j)
+      for (int k = 0; k < S::kDof; ++k) {
+        const Eigen::Index i = static_cast<Eigen::Index>(j) * S::kDof + k;
+        found[i] = next[j][k];
+        change[i] = weight[j][k] * (next[j][k] - before[j][k]);
+      }
+    if (passes_++ > 0) {
+      add_column(change - change_, changes_);
+      add_column(found - found_, founds_);
+      const Eigen::VectorXd part = changes_.colPivHouseholderQr().solve(change);
+      const Eigen::VectorXd better = found - founds_ * part;
+      for (std::size_t j = 0; j < next.size(); ++j)
+        for (int k = 0; k < S::kDof; ++k) next[j][k] = better[static_cast<Eigen::Index>(j) * S::kDof + k];
+    }
+    found_ = std::move(found);
+    change_ = std::move(change);
+  }
+
+ private:
+  static constexpr Eigen::Index kMemory = 5;  // passes that are combined
+
+  static void add_column(const Eigen::VectorXd& column, Eigen::MatrixXd& columns) {
+    const Eigen::Index keep = std::min(columns.cols(), kMemory - 1);
+    Eigen::MatrixXd all(column.size(), keep + 1);
+    if (keep > 0) all.leftCols(keep) = columns.rightCols(keep);
+    all.col(keep) = column;
+    columns = std::move(all);
+  }
+
+  int passes_ = 0;
+  Eigen::VectorXd found_, change_;  // by the last pass
+  Eigen::MatrixXd founds_, changes_;
+};
+
+// The largest change of a gap, in units of the force that it causes, relative to the largest force; and these units.
+template <class S>
+double change_of_gaps(const BasicSystem<S>& system, const BasicState<S>& before, const BasicState<S>& state, VecsOf<S>& weight) {
+  double change = 0;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    weight[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).stiffness.diagonal();
+    change = std::max(change, weight[j].cwiseProduct(state.gap[j] - before.gap[j]).template head<S::kDim>().cwiseAbs().maxCoeff());
+    change = std::max(change, weight[j].cwiseProduct(state.gap[j] - before.gap[j]).template tail<S::kDof - S::kDim>().cwiseAbs().maxCoeff());
+  }
+  return change / std::max(largest_force(state.force), 1e-300);
+}
+
 // Whether a body has moved by more than the mechanism's size, or turned by more than half a turn.
 template <class S>
 bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to) {
@@ -133,14 +195,12 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   find_accelerations(system, m, r, state);
 }
 
+// Deflects the joints of the unloaded mechanism until they carry its loads, in passes that find the forces and then the gaps. Returns how far the last pass has changed the gaps,
+// as a fraction of the largest force; infinity where passes diverge.
 template <class S>
-void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
-  const std::size_t n = system.bodies.size(), joints = system.joints.size();
-  state.a.assign(n, S::Vec::Zero());
-  state.gap = state.gap_rate = state.gap_accel = state.force = VecsOf<S>(joints, S::Vec::Zero());
-  plain_start(system, state);
-  if (!preload || joints == 0) return;
-  const BasicState<S> unloaded = state;
+double deflect(const BasicSystem<S>& system, const BasicState<S>& unloaded, GapAcceleration<S>* acceleration, BasicState<S>& state) {
+  const std::size_t joints = system.joints.size();
+  state = unloaded;
   for (auto& x : state.gap_rate) x.setZero();
   for (auto& x : state.gap_accel) x.setZero();
   tauten(system, state);
@@ -152,7 +212,9 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   const BasicState<S> taut = state;
   const bool starts_free = std::any_of(system.joints.begin(), system.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.starts_free(); });
   double last_found = 0;  // largest force of the previous pass
-  for (int pass = 0; pass < (fits ? kPreloadPasses : kRedundantPasses); ++pass) {
+  double change = 0;
+  VecsOf<S> weight(joints);
+  for (int pass = 0; pass < (fits && acceleration == nullptr ? kPreloadPasses : kRedundantPasses); ++pass) {
     const BasicState<S> before = state;
     if (pass == 0 && firm) {
       if (!BasicInverseDynamics<S>(*firm).find(state)) break;
@@ -163,9 +225,10 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     const double found = largest_force(state.force), found_before = std::exchange(last_found, found);
     // The gaps of absurd forces are costly to find, and only for one-sided joints of any use.
     const bool absurd = !starts_free && pass > (firm ? 1 : 0) && found > kAbsurd * found_before;
-    const bool grows = absurd || (pass > (firm ? 1 : 0) && found > kMostGrowth * largest_force(before.force));
+    const bool grows = absurd || (pass > (firm ? 1 : 0) && (acceleration == nullptr || pass > kFreePasses) && found > kMostGrowth * largest_force(before.force));
     if (!absurd) forces.find_gaps(state);
     if (one_sided.add(system, taut, state)) {
+      if (acceleration != nullptr) return std::numeric_limits<double>::infinity();
       forces.release(one_sided.left, one_sided.slack);
       state = taut;
       pass = -1;  // start again
@@ -177,16 +240,38 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     // Where joints have deflected, redundant ones may hold what was free: the projection then holds components that are not held, and the passes
     // diverge.
     if (grows) {
-      if (moves_too_far(system, unloaded, before)) return void(state = unloaded);
+      if (moves_too_far(system, unloaded, before)) return state = unloaded, std::numeric_limits<double>::infinity();
       state = before;
+      change = std::numeric_limits<double>::infinity();
       break;
+    }
+    change = change_of_gaps(system, before, state, weight);
+    if (acceleration != nullptr) {
+      if (change < kConverges) break;
+      acceleration->improve(before.gap, weight, state.gap);
     }
     forces.move_onto_gaps(state);
     if (pass < kCarefulPasses) forces.limit_step_at_borders(before, state);
     fits = !forces.set_forces_from_bodies(state);
   }
   balance_start(system, state);
-  if (!is_finite(state) || moves_too_far(system, unloaded, state)) state = unloaded;  // near a singular position joints would deflect by more than the mechanism's size, and a soft thread would turn its drum many times
+  if (is_finite(state) && !moves_too_far(system, unloaded, state)) return change;
+  state = unloaded;  // near a singular position joints would deflect by more than the mechanism's size, and a soft thread would turn its drum many times
+  return std::numeric_limits<double>::infinity();
+}
+
+template <class S>
+void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
+  const std::size_t n = system.bodies.size(), joints = system.joints.size();
+  state.a.assign(n, S::Vec::Zero());
+  state.gap = state.gap_rate = state.gap_accel = state.force = VecsOf<S>(joints, S::Vec::Zero());
+  plain_start(system, state);
+  if (!preload || joints == 0) return;
+  const BasicState<S> unloaded = state;
+  if (deflect<S>(system, unloaded, nullptr, state) < kSettles) return;
+  GapAcceleration<S> acceleration;
+  BasicState<S> better;
+  if (deflect<S>(system, unloaded, &acceleration, better) < kConverges) state = std::move(better);
 }
 
 void find_forces_and_accelerations(const System& system, State& state) {

@@ -56,6 +56,7 @@ std::string no_step_message(const BasicSystem<S>& system, const BasicState<S>& s
   const double t = start.t;
   if (const std::string broken = broken_function(system, start); !broken.empty()) return fmt::format("at t = {:.9g} s: {} is not finite there; try if(..., ..., 0) where its expression is not defined", t, broken);
   constexpr std::size_t kNamed = 3;  // joints with the largest residuals
+  constexpr double kSensible = 1e12;  // [m/s^2]: Newton's iteration has diverged where a residual is larger, or not a number
   const auto rank = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); };
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
   std::string text = fmt::format("the step size became too small at t = {:.9g} s, step {:.3g} s", t, h);
@@ -63,7 +64,8 @@ std::string no_step_message(const BasicSystem<S>& system, const BasicState<S>& s
   if (event.starts_with("kink or jump")) text += "; if a force jumps there and drives its bodies back and forth across the jump, try one that is 0 there (a damper on the relative speed, or a ramp by smoothstep)";
   for (std::size_t i = 0; i < std::min(kNamed, residuals.size()); ++i) {
     const BasicJointData<S>& joint = system.joints[residuals[i].second];
-    text += fmt::format("; joint {} (residual {:.3g} m/s^2){}", joint.name, residuals[i].first, undefined_edge(joint));
+    const double residual = residuals[i].first;
+    text += fmt::format("; joint {} ({}){}", joint.name, residual < kSensible ? fmt::format("residual {:.3g} m/s^2", residual) : "no solution found", undefined_edge(joint));
   }
   return text;
 }
