@@ -10,7 +10,7 @@
 #include "pintle/bearings.h"
 #include "run/check_settings.h"
 #include "run/limits/limit_notes.h"
-#include "run/limits/friction_notes.h"
+#include "run/limits/slow_motion_notes.h"
 #include "run/limits/vacuum_notes.h"
 #include "run/recorder.h"
 #include "run/run_passes.h"
@@ -49,7 +49,7 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
       limits.erase(limits.begin());
     }
     out.notes.insert(out.notes.begin(), limits.begin(), limits.end());
-    for (const std::vector<std::string>& notes : {vacuum_notes(model, out), friction_notes(model, out)}) out.notes.insert(out.notes.end(), notes.begin(), notes.end());
+    for (const std::vector<std::string>& notes : {vacuum_notes(model, out), slow_motion_notes(model, out)}) out.notes.insert(out.notes.end(), notes.begin(), notes.end());
   }
   out.wall_seconds = clock.seconds();
   return out;

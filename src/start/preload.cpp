@@ -144,7 +144,7 @@ class GapAcceleration {
   Eigen::MatrixXd founds_, changes_;
 };
 
-// The largest change of a gap, in units of the force that it causes, relative to the largest force; and these units.
+// The largest change of a gap, in units of the force that it causes, relative to the largest force. `weight`: set to force per gap.
 template <class S>
 double change_of_gaps(const BasicSystem<S>& system, const BasicState<S>& before, const BasicState<S>& state, VecsOf<S>& weight) {
   double change = 0;
@@ -245,7 +245,7 @@ double deflect(const BasicSystem<S>& system, const BasicState<S>& unloaded, GapA
       change = std::numeric_limits<double>::infinity();
       break;
     }
-    change = change_of_gaps(system, before, state, weight);
+    if (acceleration != nullptr || pass + 1 >= kPreloadPasses) change = change_of_gaps(system, before, state, weight);
     if (acceleration != nullptr) {
       if (change < kConverges) break;
       acceleration->improve(before.gap, weight, state.gap);
