@@ -216,6 +216,12 @@ TEST(Mistakes, AMisspeltKeyIsNotMissingToo) {
   EXPECT_EQ(found[0].path, "body.rod.mas");
 }
 
+TEST(Mistakes, AParameterBehindANumberIsReadAsAUnit) {
+  const auto complaints = complaints_about("format = 1\n[parameters]\nW = \"10 m\"\n[body.gate]\nmass = \"60 t\"\ninertia = \"60 t*W^2/12\"\n");
+  ASSERT_EQ(complaints.size(), 1u);
+  EXPECT_NE(complaints[0].because.find("behind a number, W is a unit and not the parameter W: parentheses keep them apart, as in (2 kg)*W"), std::string::npos) << complaints[0].because;
+}
+
 TEST(Mistakes, ASettledStartIsAtRest) {
   const std::vector<Complaint> found = complaints_about("format = 1\n[simulate]\nduration = 1\nstart = \"settled\"\n[body.a]\nmass = 1\ninertia = 1\nspin = 2\n[body.b]\nmass = 1\ninertia = 1\nspin = 0\nvelocity = [0, 1]\n");
   ASSERT_EQ(found.size(), 2);

@@ -92,6 +92,13 @@ bool mentions(std::string_view text, const std::vector<std::string>& variables) 
 }
 bool mentions(const Node& node, const std::vector<std::string>& variables) { return node.string() != nullptr && mentions(*node.string(), variables); }
 
+// A remark on a parameter that has the name of a unit and may have been meant, as in "60 t*W^2"; empty: there is none.
+std::string unit_or_parameter(const Node& node, const std::vector<std::string>& parameters) {
+  for (const std::string& name : parameters)
+    if (mentions(node, {name}) && parse_unit(name)) return fmt::format("; behind a number, {0} is a unit and not the parameter {0}: parentheses keep them apart, as in (2 kg)*{0}", name);
+  return {};
+}
+
 }  // namespace
 
 std::string range_problem(double number, const KeySpec& spec) {
@@ -168,7 +175,7 @@ std::optional<double> RecordReader::read_number(const Node& node, const KeySpec&
   const std::optional<Quantity> quantity = read_quantity(node, path);
   if (!quantity) return std::nullopt;
   if (std::optional<std::string> problem = wrong_dimension(quantity->dimension, spec)) {
-    complaints_.add(node.spot, path, describe(node), std::move(*problem), example_of(spec, quantity->si));
+    complaints_.add(node.spot, path, describe(node), *problem + unit_or_parameter(node, scope.constant_names), example_of(spec, quantity->si));
     return std::nullopt;
   }
   if (!in_range(quantity->si, node, spec, path)) return std::nullopt;
