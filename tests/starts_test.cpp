@@ -250,14 +250,21 @@ TEST(Starts, AContactThatAStopKeepsOpenStartsApart) {
 }
 
 // A spring is a load that follows from the positions. Where it is stiffer than the motor beside it, passes that find the motor's force and then the position diverge; an arm on a
-// spring of 400 N*m/rad started 24 degrees above where it rests, with 75 times its force.
+// spring of 400 N*m/rad started 24 degrees above where it rests, with 75 times its force; with 200 N*m/rad the passes alternated between two positions.
 TEST(Starts, AnArmOnASpringStifferThanItsMotorStartsAtRest) {
-  for (const double spring : {100.0, 190.0, 210.0, 300.0, 400.0, 2000.0, 20000.0}) {
+  for (const double spring : {100.0, 190.0, 200.0, 210.0, 300.0, 400.0, 2000.0, 20000.0, 2e6}) {
     const Trajectory run = completed(test_model("arm_on_a_stiff_spring", {"torsion_spring.t.stiffness=" + std::to_string(spring), "simulate.duration=0.1"}));
     const double angle = value(run, 0, "body.arm.angle");
-    EXPECT_NEAR(-(spring + 200) * angle, 2 * 9.80665 * 0.2 * std::cos(angle), 1e-6) << spring;
+    EXPECT_NEAR(-(spring + 200) * angle, 2 * 9.80665 * 0.2 * std::cos(angle), 1e-5) << spring;
     EXPECT_NEAR(run.joints[0].peak, 2 * 9.80665, 1e-3) << spring;
   }
+}
+
+// A spring that is preloaded as assembled moves a lever far if the motor beside it, which is softer by a factor of 250, has to balance it alone.
+TEST(Starts, ALeverOnAPreloadedSpringStartsWhereItRests) {
+  const Trajectory run = completed(test_model("lever_on_a_preloaded_spring")), settled = completed(test_model("lever_on_a_preloaded_spring", {"simulate.start=\"settled\""}));
+  EXPECT_NEAR(value(run, 0, "spring.s.force"), value(settled, 0, "spring.s.force"), 1e-3);
+  EXPECT_NEAR(run.joints[0].peak, settled.joints[0].peak, 1e-3);
 }
 
 // What a motor that yields and a stop carry together follows from both stiffnesses. The stop is stiffer by up to 5000 times: the motor's share is found with it, and the arm, its pin

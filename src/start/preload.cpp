@@ -17,8 +17,8 @@
 namespace pintle {
 namespace {
 
-constexpr double kSettles = 1e-3;    // change of gaps by the last pass, as a fraction of the largest force: passes with more are repeated with acceleration
-constexpr double kConverges = 1e-9;  // the same: accelerated passes with less have converged; others are not used
+constexpr double kSettles = 1e-3;    // change of gaps by the last pass, as a fraction of the largest force: passes with more are repeated with acceleration, and not used if that leaves more
+constexpr double kConverges = 1e-9;  // the same: accelerated passes with less end; roundoff may not permit it
 constexpr int kFreePasses = 8;       // number of first accelerated passes in which forces may grow
 constexpr double kAbsurd = 100;  // ratio of the largest forces of two passes: the passes diverge, whatever the gaps. Starts that converge grow by 3 (four leaf springs in a row), those that do not by 2600 (five): with 50 and with 200 these give up after the same 2 s instead of 24 s
 
@@ -116,7 +116,9 @@ class GapAcceleration {
         found[i] = next[j][k];
         change[i] = weight[j][k] * (next[j][k] - before[j][k]);
       }
-    if (passes_++ > 0) {
+    if (passes_++ == 0) {  // a small step shows how the iteration responds, where a whole one might lead to another position
+      for (std::size_t j = 0; j < next.size(); ++j) next[j] = before[j] + kFirst * (next[j] - before[j]);
+    } else {
       add_column(change - change_, changes_);
       add_column(found - found_, founds_);
       const Eigen::VectorXd part = changes_.colPivHouseholderQr().solve(change);
@@ -130,6 +132,7 @@ class GapAcceleration {
 
  private:
   static constexpr Eigen::Index kMemory = 5;  // passes that are combined
+  static constexpr double kFirst = 1e-3;      // part of the first change that is made
 
   static void add_column(const Eigen::VectorXd& column, Eigen::MatrixXd& columns) {
     const Eigen::Index keep = std::min(columns.cols(), kMemory - 1);
@@ -212,7 +215,8 @@ double deflect(const BasicSystem<S>& system, const BasicState<S>& unloaded, GapA
   const BasicState<S> taut = state;
   const bool starts_free = std::any_of(system.joints.begin(), system.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.starts_free(); });
   double last_found = 0;  // largest force of the previous pass
-  double change = 0;
+  double change = 0, least = std::numeric_limits<double>::infinity();
+  BasicState<S> best = unloaded;  // of the accelerated passes, with the least change
   VecsOf<S> weight(joints);
   for (int pass = 0; pass < (fits && acceleration == nullptr ? kPreloadPasses : kRedundantPasses); ++pass) {
     const BasicState<S> before = state;
@@ -224,8 +228,9 @@ double deflect(const BasicSystem<S>& system, const BasicState<S>& unloaded, GapA
     }
     const double found = largest_force(state.force), found_before = std::exchange(last_found, found);
     // The gaps of absurd forces are costly to find, and only for one-sided joints of any use.
-    const bool absurd = !starts_free && pass > (firm ? 1 : 0) && found > kAbsurd * found_before;
-    const bool grows = absurd || (pass > (firm ? 1 : 0) && (acceleration == nullptr || pass > kFreePasses) && found > kMostGrowth * largest_force(before.force));
+    const bool may_diverge = pass > (firm ? 1 : 0) && (acceleration == nullptr || pass > kFreePasses);
+    const bool absurd = !starts_free && may_diverge && found > kAbsurd * found_before;
+    const bool grows = absurd || (may_diverge && found > kMostGrowth * largest_force(before.force));
     if (!absurd) forces.find_gaps(state);
     if (one_sided.add(system, taut, state)) {
       if (acceleration != nullptr) return std::numeric_limits<double>::infinity();
@@ -247,12 +252,20 @@ double deflect(const BasicSystem<S>& system, const BasicState<S>& unloaded, GapA
     }
     if (acceleration != nullptr || pass + 1 >= kPreloadPasses) change = change_of_gaps(system, before, state, weight);
     if (acceleration != nullptr) {
+      if (change < least) {
+        least = change;
+        best = state;
+      }
       if (change < kConverges) break;
       acceleration->improve(before.gap, weight, state.gap);
     }
     forces.move_onto_gaps(state);
     if (pass < kCarefulPasses) forces.limit_step_at_borders(before, state);
     fits = !forces.set_forces_from_bodies(state);
+  }
+  if (acceleration != nullptr) {
+    state = std::move(best);
+    change = least;
   }
   balance_start(system, state);
   if (is_finite(state) && !moves_too_far(system, unloaded, state)) return change;
@@ -271,7 +284,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   if (deflect<S>(system, unloaded, nullptr, state) < kSettles) return;
   GapAcceleration<S> acceleration;
   BasicState<S> better;
-  if (deflect<S>(system, unloaded, &acceleration, better) < kConverges) state = std::move(better);
+  if (deflect<S>(system, unloaded, &acceleration, better) < kSettles) state = std::move(better);
 }
 
 void find_forces_and_accelerations(const System& system, State& state) {

@@ -7,6 +7,7 @@
 
 #include "dynamics/inverse_dynamics.h"
 #include "kinematics/position_search.h"
+#include "laws/bushing.h"
 #include "laws/gap_at_force.h"
 #include "start/preload.h"
 
@@ -14,6 +15,9 @@ namespace pintle {
 namespace {
 
 using S = Planar;
+
+constexpr int kSidePasses = 20;     // upper limit on the passes in which joints find the sides that they press on
+constexpr double kSameSide = 1e-6;  // change of a joint's force by the last of them, as a fraction of the largest force, below which it has found its side
 
 // How far a component must move out from the middle, in doublings, until the law pushes back with that force; nullopt if it never does.
 std::optional<double> way_to_side(const BasicLaw<S>& law, int component, double force) {
@@ -80,6 +84,45 @@ struct Seating {
   std::vector<int> unloaded, out_of_reach;
 };
 
+// The gap at the side that this force presses the joint to; nullopt if it presses to none.
+std::optional<S::Vec> gap_at_side(const BasicLaw<S>& law, const S::Vec& force, double nothing) {
+  S::Vec gap = S::Vec::Zero();
+  if (!(force.norm() > nothing) || !go_out_against<S>(law, force, S::Vec::Zero(), gap)) return std::nullopt;
+  gap_at_force<S>(law, force, S::Vec::Zero(), gap);
+  return gap;
+}
+
+// The equilibrium of the bodies on springs at the sides of `pressed`, where these joints have the gaps and carry the forces of `carried`. On its way to its side a pin may move what
+// other joints share, such as an object between two jaws, and then carries another force, on another side.
+State pressed_to_sides(const System& system, const System& firm, const std::vector<int>& pressed, State carried, const State& state) {
+  State out = state;
+  for (int pass = 0; pass < kSidePasses; ++pass) {
+    System at_sides = firm;
+    for (const int j : pressed) {
+      BushingLaw spring;
+      const S::Vec k = firm.joints[j].law.engaged_stiffness();
+      spring.K = k.asDiagonal();
+      spring.offset = carried.gap[j];
+      for (int c = 0; c < S::kDof; ++c)
+        if (k[c] > 0) spring.offset[c] += carried.force[j][c] / k[c];
+      at_sides.joints[j].law = BasicLaw<S>(spring);
+    }
+    out = state;
+    start_forces(at_sides, true, out);
+    const double nothing = kFits * largest_force(out.force);
+    double change = 0;
+    for (const int j : pressed) {
+      change = std::max(change, (out.force[j] - carried.force[j]).norm());
+      const std::optional<S::Vec> gap = gap_at_side(system.joints[j].law, out.force[j], nothing);
+      if (!gap) return out;
+      carried.gap[j] = *gap;
+      carried.force[j] = out.force[j];
+    }
+    if (change < kSameSide * largest_force(out.force)) break;
+  }
+  return out;
+}
+
 Seating seat(const System& system, const std::vector<int>& loose, const State& state) {
   // Springs without play would carry a misfit as a preload. If each is soft enough to deflect by its play, they share the misfit as pins that go to their sides
   // do.
@@ -95,14 +138,14 @@ Seating seat(const System& system, const std::vector<int>& loose, const State& s
   }
   Seating out;
   const double nothing = kFits * largest_force(carried.force);
+  std::vector<int> pressed;
   for (const int j : loose) {
-    S::Vec gap = S::Vec::Zero();
-    const bool presses = carried.force[j].norm() > nothing && go_out_against<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
-    if (presses) gap_at_force<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
-    else out.unloaded.push_back(j);
-    carried.gap[j] = gap;
+    const std::optional<S::Vec> gap = gap_at_side(system.joints[j].law, carried.force[j], nothing);
+    (gap ? pressed : out.unloaded).push_back(j);
+    carried.gap[j] = gap.value_or(S::Vec::Zero());
   }
-  BasicInverseDynamics<S>(firm).move_onto_gaps(carried);
+  if (misfit) BasicInverseDynamics<S>(firm).move_onto_gaps(carried);
+  else carried = pressed_to_sides(system, firm, pressed, carried, state);
   out.q = carried.q;
   out.v = carried.v;
   if (misfit) return out;

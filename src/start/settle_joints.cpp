@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "dynamics/inverse_dynamics.h"
@@ -168,23 +169,43 @@ void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& 
   if (!soft.placed || !fits || !converged) start.notes.push_back(kNotSettled);
 }
 
-}  // namespace
-
+// The largest force that accelerates a body, as a fraction of the largest force of a joint.
 template <class S>
-bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
-  const double force = largest_force(state.force);
-  if (2 * system.kinetic(state.v) > kFits * twice_stored(state)) return false;
+double unbalanced_part(const BasicSystem<S>& system, const BasicState<S>& state) {
+  double largest = 0;
   for (std::size_t i = 0; i < state.a.size(); ++i) {
     const typename S::Vec unbalanced = system.bodies[i].mass.cwiseProduct(state.a[i]);
-    const double couple = unbalanced.template tail<S::kDof - S::kDim>().norm() / system.bodies[i].radius_of_gyration();
-    if (!(unbalanced.template head<S::kDim>().norm() + couple <= kBalanced * force)) return false;
+    const double force = unbalanced.template head<S::kDim>().norm() + unbalanced.template tail<S::kDof - S::kDim>().norm() / system.bodies[i].radius_of_gyration();
+    if (!(force <= largest)) largest = force;  // or is not a number
   }
+  return largest > 0 ? largest / std::max(largest_force(state.force), 1e-300) : largest;
+}
+
+// Whether loads and targets do not change for the time `span`, as far as they depend on time alone.
+template <class S>
+bool is_steady(const BasicSystem<S>& system, const BasicState<S>& state, double span) {
+  std::vector<typename S::Motion> m;
+  system.motions(state.q, state.v, m);
+  const auto loads_at = [&](double t) {
+    VecsOf<S> loads(state.q.size(), S::Vec::Zero());
+    system.external(t, m, loads, state.sliding);
+    return loads;
+  };
+  const auto targets_at = [&](double t) {
+    std::vector<double> targets;
+    for (const BasicJointData<S>& joint : system.joints)
+      if (joint.driven >= 0)
+        for (const double x : target_of(joint, t)) targets.push_back(x);
+    return targets;
+  };
+  for (const double t : {state.t + 0.5 * span, state.t + span})
+    if (loads_at(t) != loads_at(state.t) || targets_at(t) != targets_at(state.t)) return false;
   return true;
 }
 
+// theory/assembly sections 4 and 5.
 template <class S>
-void settle_joints(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start) {
-  if (!(duration > 0)) return;
+void settle(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start) {
   BasicState<S>& state = start.state;
   const double span = known_span > 0 ? known_span : span_of_motion(system, state, 4 * duration);
   start.span = span;
@@ -201,6 +222,22 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
     if (start.settled_over > 0) state = std::move(slower);
   }
   if (start.settled_over == 0) note_not_settled(system, state, start.notes);
+}
+
+}  // namespace
+
+template <class S>
+bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
+  return 2 * system.kinetic(state.v) <= kFits * twice_stored(state) && unbalanced_part(system, state) <= kBalanced;
+}
+
+template <class S>
+void settle_joints(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start) {
+  if (!(duration > 0)) return;
+  const std::optional<BasicState<S>> at_rest = is_at_rest(system, start.state) ? std::optional(start.state) : std::nullopt;
+  settle(system, duration, known_span, start);
+  // Sweeps that do not quite converge, as beside springs stiffer than a motor, disturb what rests.
+  if (at_rest && !is_at_rest(system, start.state) && is_steady(system, *at_rest, start.span > 0 ? std::min(start.span, duration) : duration)) start.state = *at_rest;
 }
 
 template <class S>
