@@ -159,7 +159,8 @@ double change_of_gaps(const BasicSystem<S>& system, const BasicState<S>& before,
   return change / std::max(largest_force(state.force), 1e-300);
 }
 
-// Whether a body has moved by more than the mechanism's size, or turned by more than half a turn.
+}  // namespace
+
 template <class S>
 bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to) {
   const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
@@ -169,8 +170,6 @@ bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, cons
   }
   return false;
 }
-
-}  // namespace
 
 // Gaps without stiffness are taken from the positions. So are gaps that the bodies cannot assume, as in redundant joints: otherwise
 // the first step would find gaps and forces other than those in the first row. theory/time Eq. (4.3).
@@ -198,6 +197,8 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   find_accelerations(system, m, r, state);
 }
 
+namespace {
+
 // Deflects the joints of the unloaded mechanism until they carry its loads, in passes that find the forces and then the gaps. Returns how far the last pass has changed the gaps,
 // as a fraction of the largest force; infinity where passes diverge.
 template <class S>
@@ -216,7 +217,8 @@ double deflect(const BasicSystem<S>& system, const BasicState<S>& unloaded, GapA
   const bool starts_free = std::any_of(system.joints.begin(), system.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.starts_free(); });
   double last_found = 0;  // largest force of the previous pass
   double change = 0, least = std::numeric_limits<double>::infinity();
-  BasicState<S> best = unloaded;  // of the accelerated passes, with the least change
+  BasicState<S> best;  // of the accelerated passes, with the least change
+  if (acceleration != nullptr) best = unloaded;
   VecsOf<S> weight(joints);
   for (int pass = 0; pass < (fits && acceleration == nullptr ? kPreloadPasses : kRedundantPasses); ++pass) {
     const BasicState<S> before = state;
@@ -273,6 +275,8 @@ double deflect(const BasicSystem<S>& system, const BasicState<S>& unloaded, GapA
   return std::numeric_limits<double>::infinity();
 }
 
+}  // namespace
+
 template <class S>
 void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
   const std::size_t n = system.bodies.size(), joints = system.joints.size();
@@ -298,8 +302,10 @@ void find_forces_and_accelerations(const System& system, State& state) {
 
 double characteristic_length(const System& system, const Vecs& q) { return std::max(mechanism_size(system, q), system.largest_radius_of_gyration()); }
 
+template bool moves_too_far(const BasicSystem<Planar>& system, const BasicState<Planar>& from, const BasicState<Planar>& to);
 template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void start_forces(const BasicSystem<Planar>& system, bool preload, BasicState<Planar>& state);
+PINTLE_IN_SPACE(template bool moves_too_far(const BasicSystem<Spatial>& system, const BasicState<Spatial>& from, const BasicState<Spatial>& to);)
 PINTLE_IN_SPACE(template void balance_start(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);)
 PINTLE_IN_SPACE(template void start_forces(const BasicSystem<Spatial>& system, bool preload, BasicState<Spatial>& state);)
 

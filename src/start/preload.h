@@ -25,6 +25,10 @@ bool is_open_contact(const BasicLaw<S>& law, const typename S::Vec& gap, double 
   return law.penetration(S::Vec::Zero()) == 0 && law.penetration(gap) < -kAsStated * size;
 }
 
+/// Whether a body has moved by more than the mechanism's size, or turned by more than half a turn.
+template <class S>
+bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to);
+
 /// The rates of the laws' states, the joint forces and the accelerations of a state whose positions, gaps and law states are known.
 void find_forces_and_accelerations(const System& system, State& state);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "dynamics/inverse_dynamics.h"
@@ -176,9 +175,10 @@ double unbalanced_part(const BasicSystem<S>& system, const BasicState<S>& state)
   for (std::size_t i = 0; i < state.a.size(); ++i) {
     const typename S::Vec unbalanced = system.bodies[i].mass.cwiseProduct(state.a[i]);
     const double force = unbalanced.template head<S::kDim>().norm() + unbalanced.template tail<S::kDof - S::kDim>().norm() / system.bodies[i].radius_of_gyration();
-    if (!(force <= largest)) largest = force;  // or is not a number
+    if (!std::isfinite(force)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, force);
   }
-  return largest > 0 ? largest / std::max(largest_force(state.force), 1e-300) : largest;
+  return largest > 0 ? largest / std::max(largest_force(state.force), 1e-300) : 0;
 }
 
 // Whether loads and targets do not change for the time `span`, as far as they depend on time alone.
@@ -234,10 +234,13 @@ bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
 template <class S>
 void settle_joints(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start) {
   if (!(duration > 0)) return;
-  const std::optional<BasicState<S>> at_rest = is_at_rest(system, start.state) ? std::optional(start.state) : std::nullopt;
+  const BasicState<S> given = start.state;
   settle(system, duration, known_span, start);
-  // Sweeps that do not quite converge, as beside springs stiffer than a motor, disturb what rests.
-  if (at_rest && !is_at_rest(system, start.state) && is_steady(system, *at_rest, start.span > 0 ? std::min(start.span, duration) : duration)) start.state = *at_rest;
+  if (moves_too_far(system, given, start.state)) start.state = given;
+  if (!is_at_rest(system, given) || !is_steady(system, given, start.span > 0 ? std::min(start.span, duration) : duration)) return;
+  // Sweeps that do not quite converge, as beside springs stiffer than a motor, disturb what rests; and where they find nothing, nothing rings.
+  if (!is_at_rest(system, start.state)) start.state = given;
+  std::erase(start.notes, kNotSettled);
 }
 
 template <class S>
