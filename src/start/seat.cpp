@@ -16,9 +16,6 @@ namespace {
 
 using S = Planar;
 
-constexpr int kSidePasses = 20;     // upper limit on the passes in which joints find the sides that they press on
-constexpr double kSameSide = 1e-6;  // change of a joint's force by the last of them, as a fraction of the largest force, below which it has found its side
-
 // How far a component must move out from the middle, in doublings, until the law pushes back with that force; nullopt if it never does.
 std::optional<double> way_to_side(const BasicLaw<S>& law, int component, double force) {
   S::Vec gap = S::Vec::Zero();
@@ -96,7 +93,7 @@ std::optional<S::Vec> gap_at_side(const BasicLaw<S>& law, const S::Vec& force, d
 // other joints share, such as an object between two jaws, and then carries another force, on another side.
 State pressed_to_sides(const System& system, const System& firm, const std::vector<int>& pressed, State carried, const State& state) {
   State out = state;
-  for (int pass = 0; pass < kSidePasses; ++pass) {
+  for (int pass = 0; pass < kRedundantPasses; ++pass) {
     System at_sides = firm;
     for (const int j : pressed) {
       BushingLaw spring;
@@ -118,7 +115,7 @@ State pressed_to_sides(const System& system, const System& firm, const std::vect
       carried.gap[j] = *gap;
       carried.force[j] = out.force[j];
     }
-    if (change < kSameSide * largest_force(out.force)) break;
+    if (change < nothing) break;
   }
   return out;
 }

@@ -23,7 +23,6 @@ namespace {
 
 using S = Planar;
 
-constexpr int kTangents = 3;      // passes in which the tangents of stops follow their loads
 constexpr double kMostAjar = 1e-4;  // upper limit on the opening of contacts, as a fraction of the mechanism's size: if soft joints opened them further, it would no longer be the assembled mechanism
 
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
@@ -229,13 +228,16 @@ StopLock lock_for(const System& system, const Touch& touch) {
 
 // Sets all locks along the tangents of their stops at the loads that the locks find, and removes those that would have to pull.
 void find_tangents(const System& system, const State& state, std::vector<StopLock>& stops) {
-  for (int pass = 0; pass < kTangents && !stops.empty(); ++pass) {
+  bool found = false;
+  for (int pass = 0; pass < kRedundantPasses && !found && !stops.empty(); ++pass) {
     State trial = state;
     start_forces(with_locks_for_stops(system, stops), true, trial);
+    found = true;
     for (std::size_t i = stops.size(); i-- > 0;) {
-      const double depth = stops[i].sign * (trial.gap[system.joints.size() + i][stops[i].lock.component] - stops[i].stop);
+      const double force = stops[i].lock.preload, depth = stops[i].sign * (trial.gap[system.joints.size() + i][stops[i].lock.component] - stops[i].stop);
       if (depth > 0) set_tangent(system, depth, stops[i]);
       else stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(i));
+      found = found && depth > 0 && std::abs(stops[i].lock.preload - force) <= kFits * std::abs(force);
     }
   }
 }
