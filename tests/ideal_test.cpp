@@ -387,5 +387,39 @@ TEST(Ideal, LawsThatRememberAreRefused) {
   }
 }
 
+// Laws that stay among ideal joints keep the friction that needs no states: here that of a damped pendulum in a bushing.
+TEST(Ideal, SmoothFrictionOfAJointThatStaysALaw) {
+  const std::string text = R"toml(
+format = 1
+name = "Pendulum in rubber"
+[simulate]
+duration = "1 s"
+tolerance = 1e-6
+[body.rod]
+mass = "1 kg"
+inertia = 0.1
+position = [0.5, 0]
+angle = 0
+markers.P = [-0.5, 0]
+[ground.markers]
+P = [0, 0]
+[joint.P]
+type = "revolute"
+between = ["ground.P", "rod.P"]
+law = "bushing"
+stiffness = 1e5
+damping = 500
+friction = "brown-mcphee"
+friction_coefficient = 0.3
+pin_radius = "50 mm"
+)toml";
+  const Trajectory laws = reference::completed(parse_model(text, "rubber.toml"));
+  EXPECT_GT(laws.energy.dissipated, 0.2);
+  for (const char* equations : {"ideal", "augmented_lagrangian"}) {
+    const Trajectory run = reference::completed(parse_model(text, "rubber.toml", {std::string("simulate.equations=\"") + equations + "\"", "simulate.tolerance=1e-4"}));
+    EXPECT_NEAR(run.energy.dissipated, laws.energy.dissipated, 1e-3 * laws.energy.dissipated) << equations;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

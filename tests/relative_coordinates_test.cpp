@@ -1,6 +1,7 @@
 // Equations over a tree of ideal joints, compared with those of free bodies with a stiff law in every joint, and with exact solutions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <complex>
 
 #include "system/sample_systems_for_tests.h"
@@ -321,6 +322,12 @@ TEST(RelativeRedundancy, ReactionsOfRedundantJointsAreNotUnique) {
   const Trajectory run = completed(model);
   EXPECT_GT(undetermined(run), 3);
   EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("these reactions are not") != std::string::npos; }));
+}
+
+TEST(RelativeCoordinates, StopsOfAnIdealPinAreLeftOutOfTheStartToo) {
+  const Trajectory run = reference::completed(reference::test_model("ideal_pin_with_stops"));
+  EXPECT_GT(run.counters.events, 0U);  // the slide reaches its stop
+  EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("joint A is ideal: its stops are not in these equations") != std::string::npos; }));
 }
 
 }  // namespace

@@ -1,11 +1,27 @@
 #include "integrators/open_contacts.h"
 
+#include <numeric>
+
 namespace pintle {
 
+namespace {
+
 template <class S>
-BasicOpenContacts<S>::BasicOpenContacts(const BasicSystem<S>& system) : system_(system) {
+std::vector<int> all_joints(const BasicSystem<S>& system) {
+  std::vector<int> all(system.joints.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
+template <class S>
+BasicOpenContacts<S>::BasicOpenContacts(const BasicSystem<S>& system) : BasicOpenContacts(system, all_joints(system)) {}
+
+template <class S>
+BasicOpenContacts<S>::BasicOpenContacts(const BasicSystem<S>& system, const std::vector<int>& joints) : system_(system) {
   const auto may_be_apart = [](const auto& part) { return part->n_borders() > 0 && !part->closed_stiffness().isZero(0); };
-  for (int j = 0; j < system.n_joints(); ++j) {
+  for (const int j : joints) {
     const BasicJointData<S>& joint = system.joints[j];
     if (!joint.ideal && std::any_of(joint.law.parts().begin(), joint.law.parts().end(), may_be_apart)) joints_.push_back(j);
   }

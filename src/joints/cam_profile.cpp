@@ -88,8 +88,8 @@ std::string CamProfile::fault() const {
     const auto [r, d, dd] = radius(angle);
     if (!std::isfinite(r) || !std::isfinite(d) || !std::isfinite(dd)) return fmt::format("the lift or a derivative of it is not finite at {:g} deg", degrees);
     if (!(r > 0)) return fmt::format("the radius at {:g} deg is {:.4g} m", degrees, r);
-    if (i > 0 && !cam_.lift.is_constant())
-      if (const auto corner = corner_between(cam_.lift, kTurn * (i - 1) / kPoints, angle, kSmooth * r))
+    if (!cam_.lift.is_constant())
+      if (const auto corner = corner_between(cam_.lift, angle, kTurn * (i + 1) / kPoints, kSmooth * r))
         return fmt::format("the cam has a corner at {:.4g} deg: the slope of the lift jumps from {:.4g} to {:.4g} m/rad", 360 * corner->at / kTurn, corner->slope_before, corner->slope_behind);
     const double curvature = surface_curvature(angle), roller = cam_.roller_radius;
     if (cam_.flat && !(curvature > 0)) return fmt::format("at {:g} deg the cam would be hollow (radius of curvature {:.4g} m), and a flat face cannot follow it", degrees, curvature);

@@ -55,7 +55,7 @@ constexpr std::array<KeyInfo, 9> kMaxwellKeys{{
     {.key = "branch_time", .unit = "s", .minimum_exclusive = true, .required = true, .list = true, .meaning = "time in which the force of each branch falls to 1/e, a list as long"},
     {.key = "hardening", .unit = "m^-2", .meaning = "of the relaxed spring in the held lengths: at a displacement r it is stiffer by the share hardening*r^2"},
     {.key = "hysteresis_force", .unit = "N", .meaning = "largest friction inside the rubber, in the held lengths, whatever the speed"},
-    {.key = "hysteresis_displacement", .unit = "m", .minimum_exclusive = true, .otherwise = "required with hysteresis_force", .meaning = "displacement after a reversal over which this friction reaches all but 1/e of its maximum"},
+    {.key = "hysteresis_displacement", .unit = "m", .minimum_exclusive = true, .otherwise = "required with hysteresis_force", .meaning = "displacement from rest over which this friction reaches all but 1/e of its maximum; after a reversal it takes 1.69 times that"},
 }};
 
 constexpr std::array<std::string_view, 4> kPoseJoints{"revolute", "prismatic", "fixed", "slot"};

@@ -360,18 +360,19 @@ std::vector<LawColumn> BasicLaw<S>::columns() const {
 
 template <class S>
 void BasicLaw<S>::observe(const BasicLawPoint<S>& at, const typename S::Vec& force, std::vector<double>& values) const {
-  // The given force is more accurate than the laws' value at the gap, but it is the sum over all parts.
-  typename S::Vec beside = S::Vec::Zero();  // total of those that do not hold
-  const auto own_force = [](const Part& part, const LawInput<double, S::kDof>& in) -> typename S::Vec {
-    return part.holds() ? S::Vec::Zero().eval() : force_of<S>(part, in);
+  // The given force is more accurate than the laws' value at the gap, but it is the sum over all parts. What holds has the held directions to itself.
+  const typename S::Vec free = (engaged_stiffness().array() > 0).select(S::Vec::Zero(), S::Vec::Ones());
+  const auto own_force = [&free](const Part& part, const LawInput<double, S::kDof>& in) -> typename S::Vec {
+    const typename S::Vec own = force_of<S>(part, in);
+    return part.holds() ? typename S::Vec(own.cwiseProduct(free)) : own;
   };
-  const auto n_beside = std::count_if(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds(); });
-  if (n_beside > 1) visit_parts(at, [&](const Part& part, const LawInput<double, S::kDof>& in) { beside += own_force(part, in); });
+  typename S::Vec sum = linear_.force(at.gap, at.rate).cwiseProduct(free);
+  visit_parts(at, [&](const Part& part, const LawInput<double, S::kDof>& in) { sum += own_force(part, in); });
   visit_parts(at, [&](const Part& part, const LawInput<double, S::kDof>& in) {
     const std::size_t n = part.columns().size(), first = values.size();
     values.resize(first + n);
     if (n == 0) return;
-    const typename S::Vec others = n_beside > 1 && !part.holds() ? typename S::Vec(beside - own_force(part, in)) : typename S::Vec(S::Vec::Zero());
+    const typename S::Vec others = sum - own_force(part, in);
     part.observe(in, force - others, values.data() + first);
   });
 }

@@ -8,6 +8,7 @@
 //   Z(mu) = -[F_e + mu F_v + F_z (mu - g_z)^-1 (g_e + mu g_v)].   Eq. (3.9)
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "laws/law_numbers.h"
@@ -74,6 +75,13 @@ struct LawImpedance {
     for (int r = 0; r < D; ++r)
       for (int c = 0; c < D; ++c)
         for (int z = 0; z < n; ++z) weight[D * r + c] -= law.force_by_state[r][z] * follows[D * z + c];
+  }
+
+  /// As `find`, with 0 for negative diagonal elements: what projects bodies onto their joints divides by mu^2 M + Z(mu). Where friction falls with speed, or a spring with its
+  /// gap, Z cancels the mass at some mu, and the projection would magnify rounding errors without bound. theory/time section 4.
+  void find_passive(const BasicLawTangents<S>& law, const T& mu) {
+    find(law, mu);
+    for (int k = 0; k < D; ++k) weight[(D + 1) * k] = std::abs(weight[(D + 1) * k]);
   }
 
  private:

@@ -209,7 +209,7 @@ Assembly start_as_asked(const Model& model, double known_span) {
   if (has_constraints(model.simulate.equations)) {
     Assembly assembly = ideal_start(model, known_span);
     const System& system = assembly.system;
-    note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
+    note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.n_states() > 0; }, assembly.notes);
     for (const JointData& joint : system.joints)
       if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.depends_on_reaction_alone()) assembly.notes.push_back("joint " + joint.name + ": its teeth do not push the bodies apart in these equations, whatever its radial_force says");
     return assembly;
@@ -222,6 +222,7 @@ Assembly start_as_asked(const Model& model, double known_span) {
   if (!tree.all_free()) {
     for (int j = 0; j < system.n_joints(); ++j)
       if (tree.in_tree(j)) assembly.system.joints[j].law = system.joints[j].law;
+    assembly.system.finish(&system);
     note_undetermined_reactions(system, tree, assembly);
     convert_to_tree(assembly.system, is_preloaded(model.simulate.start), assembly.state);
   }

@@ -15,6 +15,7 @@
 #include "laws/contact/gap_contact.h"
 #include "laws/law_tangents.h"
 #include "mobility/constraint_rows.h"
+#include "start/inert_states.h"
 #include "start/preload.h"
 #include "start/seat.h"
 
@@ -192,17 +193,6 @@ Pressing press(const System& system, State& state) {
   return {std::move(touches), std::move(idle)};
 }
 
-// In the place of a stop, with as many states.
-struct NoStop {
-  static constexpr std::string_view kWord = "no stop";
-  static constexpr bool kHolds = false, kRubs = false;
-  int states = 0;
-
-  int n_states() const { return states; }
-  template <class T>
-  void evaluate(const LawInput<T>&, LawOutput<T>&) const {}
-};
-
 // The law with `replacement(i)` for those of its parts i that hold nothing, as stops do; its states keep their order, as holding parts come first.
 template <class Replacement>
 BasicLaw<S> with_other_parts(const BasicLaw<S>& law, const Replacement& replacement) {
@@ -248,7 +238,7 @@ System with_locks_for_stops(const System& system, const std::vector<StopLock>& s
   System out = with_locks(system, stops);
   for (const StopLock& stop : stops) {
     const BasicLaw<S>& law = system.joints[stop.joint].law;
-    out.joints[stop.joint].law = with_other_parts(law, [&law](std::size_t i) { return law.parts()[i]->stops() ? BasicLaw<S>(NoStop{law.parts()[i]->n_states()}).parts().front()->clone() : law.parts()[i]->clone(); });
+    out.joints[stop.joint].law = with_other_parts(law, [&law](std::size_t i) { return law.parts()[i]->stops() ? inert_states(law.parts()[i]->n_states()) : law.parts()[i]->clone(); });
   }
   out.finish();
   return out;

@@ -175,7 +175,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     joint.law.linearize({t, last.gap[joints.first], last.gap_rate[joints.first], last.law_state.data() + joint.first_state}, tangents_);
     impedance_.reserve(tangents_.n);
     if (tangents_.n > 0) joints.map.lane(0).push(tails.of_states[joints.first].a.data(), state_loads_[joints.a[0]], state_loads_[joints.b[0]]);
-    impedance_.find(tangents_, mu);
+    impedance_.find_passive(tangents_, mu);
     for (int k = 0; k < S::kDof * S::kDof; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
   }
   // For one of the joints, four sets of gaps.

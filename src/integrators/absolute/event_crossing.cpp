@@ -46,6 +46,11 @@ void BasicRadauStepper<S>::evaluate_switching_functions(double x, double h, doub
     for (int i = 0; i < n_; ++i) inside_law_state_[z] += h * v[i] * stage_[i].law_rate[z];
   }
   system_.motions(inside_q_, inside_v_, inside_m_);
+  open_contacts_.follow_positions([this](int j) { return law_point(system_, j, begin_); }, [&](int j) { return system_.kinematics(j, begin_.t + x * h, inside_m_); },
+                                  [this](int j) -> const typename S::Vec& { return inside_gap_[j]; }, largest_coordinate(inside_q_), [this](int j, const BasicJointKinematics<S>& r) {
+                                    inside_gap_[j] = r.gap;
+                                    inside_rate_[j] = r.rate;
+                                  });
   system_.evaluate_switching_functions(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
 }
 

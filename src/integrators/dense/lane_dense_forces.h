@@ -207,7 +207,7 @@ class LaneForces : public BasicDenseForces<S> {
       }
       data.law.linearize({t_[s], gap, rate, law_state_[s].data() + data.first_state}, tangents_);
       impedance_.reserve(tangents_.n);
-      impedance_.find(tangents_, mu);
+      impedance_.find_passive(tangents_, mu);
       for (int k = 0; k < S::kDof * S::kDof; ++k) joint.weight[k].set(s, impedance_.weight[k]);
     }
   }

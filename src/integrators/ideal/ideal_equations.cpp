@@ -30,7 +30,7 @@ double largest_number(const Vecs& q) {
   return largest;
 }
 
-// Forces from outside, such as the pressures in a cylinder. Friction and stops of the joint have states, which these equations do not carry.
+// Forces from outside, such as the pressures in a cylinder whose friction or stops have states, which these equations do not carry.
 S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
   LawInput<double> in{};
   in.t = t;
@@ -46,7 +46,9 @@ S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
 }  // namespace
 
 S::Vec force_without_states(const JointData& joint, double t, const JointKinematics& r) {
-  return joint.ideal ? S::Vec(S::Vec::Zero()) : S::Vec(respond(joint.law, r.gap, r.rate).force + pushing(joint, t, r));
+  if (joint.ideal) return S::Vec::Zero();
+  if (joint.law.n_states() == 0) return joint.law.force({t, r.gap, r.rate, nullptr});
+  return respond(joint.law, r.gap, r.rate).force + pushing(joint, t, r);
 }
 
 void find_powers(const System& system, const std::vector<S::Motion>& m, State& state) {
@@ -56,7 +58,8 @@ void find_powers(const System& system, const std::vector<S::Motion>& m, State& s
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     state.supply_power += system.drive_power(joint, state.t, m, state.force[j]);
-    if (joint.servo < 0 && !joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
+    if (joint.servo >= 0 || joint.ideal) continue;
+    state.loss_power += joint.law.n_states() == 0 ? joint.law.loss({state.t, state.gap[j], state.gap_rate[j], nullptr}) : respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
   }
 }
 

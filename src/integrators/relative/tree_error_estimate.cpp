@@ -103,14 +103,14 @@ double TreeRadau::open_contact_error(double h) const {
   if (open_contacts_.empty()) return 0;
   const TreeState& last = stages_.states()[n_ - 1];
   const TreeInstant& instant = stages_.instant(n_ - 1);
-  const auto first_gap = [this](int j) { return 3 * (std::find(tree_->laws().begin(), tree_->laws().end(), j) - tree_->laws().begin()); };
+  const auto first_gap = [this](int j) { return 3 * law_index(j); };
   S::Vec gap, rate;  // a law's point refers to them
   const auto carried = [&](int j) {
     gap = last.gap.segment<3>(first_gap(j));
     rate = last.rate.segment<3>(first_gap(j));
     return LawPoint{instant.t(), gap, rate, last.law_state.data() + system_.joints[j].first_state};
   };
-  return open_contacts_.error(h, carried, [&](int j) { return instant.kinematics(static_cast<int>(first_gap(j) / 3)); }, [this](int b) { return body_coefficient(n_, b); },
+  return open_contacts_.error(h, carried, [&](int j) { return instant.kinematics(static_cast<int>(law_index(j))); }, [this](int b) { return body_coefficient(n_, b); },
                               largest_coordinate(instant.pose().q), scale_);
 }
 

@@ -35,6 +35,18 @@ void TreeRadau::evaluate_switching_functions(double x, double h, double* value) 
     for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += h * first[i] * stage.law_rate[z];
   }
   inside_at_.place_only(begin_.t + x * h, at.y, at.u);
+  const auto first_gap = [this](int j) { return 3 * law_index(j); };
+  Planar::Vec gap, rate;  // a law's point refers to them
+  const auto start = [&](int j) {
+    gap = begin_.gap.segment<3>(first_gap(j));
+    rate = begin_.rate.segment<3>(first_gap(j));
+    return LawPoint{begin_.t, gap, rate, begin_.law_state.data() + system_.joints[j].first_state};
+  };
+  open_contacts_.follow_positions(start, [&](int j) { return inside_at_.kinematics(static_cast<int>(law_index(j))); }, [&](int j) { return Planar::Vec(at.gap.segment<3>(first_gap(j))); },
+                                  largest_coordinate(inside_at_.pose().q), [&](int j, const JointKinematics& r) {
+                                    at.gap.segment<3>(first_gap(j)) = r.gap;
+                                    at.rate.segment<3>(first_gap(j)) = r.rate;
+                                  });
   inside_at_.evaluate_switching_functions(at, value);
 }
 

@@ -26,7 +26,7 @@ bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at
     }
     at.linearize(l, laws_at, tangents);
     impedance.reserve(tangents.n);
-    impedance.find(tangents, mu);
+    impedance.find_passive(tangents, mu);
     for (int k = 0; k < 9; ++k) weight_[l](k / 3, k % 3) = impedance.weight[k];
   }
   taut_ = taut.size() > 0;

@@ -2,6 +2,7 @@
 // force laws. theory/tree sections 5 to 7; the method for free bodies is radau_stepper.h.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double body_tail() const;
   double gap_tail();
   double state_tail(double h) const;
+  /// The place of a joint among those that have laws.
+  Eigen::Index law_index(int joint) const { return std::find(tree_->laws().begin(), tree_->laws().end(), joint) - tree_->laws().begin(); }
   double open_contact_error(double h) const;
   double ringing_behind_event(double h) const;
   double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_at_.pose().m, stages_.instant(n_ - 1).pose().m); }

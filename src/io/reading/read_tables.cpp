@@ -173,7 +173,8 @@ class TableReader {
     if (span > *period_ + rounding)
       return complain("period", node.spot, fmt::format("{:g} {}", *period_, unit_of(x_)), fmt::format("the table spans more, {:g} {}", span, unit_of(x_)), "a table of one period");
     const std::size_t end = y_.numbers.size() - 1;
-    if (span > *period_ - rounding && std::abs(last - first) > 1e-9 * (std::abs(first) + std::abs(last)))
+    const auto [least, most] = std::minmax_element(y_.numbers.begin(), y_.numbers.end());
+    if (span > *period_ - rounding && std::abs(last - first) > 1e-9 * std::max(std::abs(*least), std::abs(*most)))
       complain(key_of("y"), spot_of("y", end), found_at(end, fmt::format("{:g} {}", last, unit_of(y_))), fmt::format("one period before it is {:g} {}: the function would jump", first, unit_of(y_)), "the same value at both ends, or no point at the end of the period");
   }
 

@@ -79,6 +79,11 @@ TEST(Tables, MayStandInAFile) {
   EXPECT_DOUBLE_EQ(at("y_unit = \"kN*m\"\n", "angle,M\nrad,N*m\n1,10\n2,20\n"), 15e3);
 }
 
+// 10 sin(angle) as it is computed: its last value is a rounding error.
+TEST(Tables, APeriodClosesToRoundingOfItsLargestValue) {
+  EXPECT_NEAR(torque_at(with_table("[table.f]\nx = [0, 90, 180, 270, 360]\nx_unit = \"deg\"\ny = [0, 10, 1.2e-15, -10, -2.4e-15]\ny_unit = \"N*m\"\nperiod = 360\n", "f(angle)"), std::numbers::pi / 4), 5, 1e-12);
+}
+
 TEST(Tables, RepeatAndGoOnAsTheModelSays) {
   const std::string points = "[table.f]\nx = [0, 90, 180]\nx_unit = \"deg\"\ny = [0, 10, 0]\ny_unit = \"N*m\"\n";
   const double quarter = std::numbers::pi / 2;

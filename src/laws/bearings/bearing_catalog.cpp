@@ -83,10 +83,10 @@ Elements elements_of(const LawSetting& at) {
 LawFault rolling_fault(const LawSetting& at) {
   const double balls = at.number("balls"), rollers = at.number("rollers");
   if (balls > 0 && rollers > 0) return {"rollers", "a bearing has balls or rollers", "delete one of the two"};
-  for (const auto& [count, size, number] : {std::tuple("balls", "ball_diameter", balls), std::tuple("rollers", "roller_length", rollers)}) {
+  for (const auto& [count, size, number, others] : {std::tuple("balls", "ball_diameter", balls, rollers), std::tuple("rollers", "roller_length", rollers, balls)}) {
     if (number != std::floor(number)) return {count, "this is a whole number", fmt::format("{} = {}", count, std::floor(number))};
     if (number > 0 && at.number(size) == 0) return {count, fmt::format("force against deflection follows from the number and the size of the {}", count), fmt::format("{} beside it, such as \"10 mm\"", size)};
-    if (number == 0 && at.number(size) > 0) return {size, fmt::format("the bearing has no {}", count), fmt::format("{} = 8, or another number of them", count)};
+    if (number == 0 && at.number(size) > 0) return {size, fmt::format("the bearing has no {}", count), others > 0 ? "delete it" : fmt::format("{} = 8, or another number of them", count)};
   }
   if (balls + rollers > 0 && at.states("stiffness")) return {"stiffness", fmt::format("that of the {} follows from their number and size", balls > 0 ? "balls" : "rollers"), fmt::format("delete it, or delete {0} and their size and state a stiffness alone", balls > 0 ? "balls" : "rollers")};
   if (at.number("contact_angle") >= 0.5 * std::numbers::pi - 1e-9) return {"contact_angle", "such a bearing carries no radial load", "an angle below 90 deg, of angular-contact bearings 15 to 40 deg"};

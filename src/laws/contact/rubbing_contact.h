@@ -34,7 +34,7 @@ struct RubbingContact {
       f.loss += where_positive(state[0], along.loss, none);
       state_rate[1] = where_positive(state[0], along.stretch_rate, none);
     } else {
-      f.friction = friction.force(f.normal, at.slip);
+      f.friction = friction.force(pressing(f.normal), at.slip);
       f.loss -= f.friction * at.slip;
     }
     return f;

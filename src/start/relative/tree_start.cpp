@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "start/inert_states.h"
 #include "start/relative/tree_gaps.h"
 
 namespace pintle {
@@ -26,8 +27,11 @@ System with_stiff_tree(System system, const JointTree& tree) {
     LinearLaw law;
     law.k = stiffest * S::Vec(1, 1, size).cwiseProduct(S::Vec::Ones() - joint.free_mask);
     law.c = kRelaxation * law.k;
+    const int states = joint.law.n_states();
     joint.law = law;
+    if (states > 0) joint.law.add(inert_states(states));
   }
+  system.finish(&system);
   return system;
 }
 
