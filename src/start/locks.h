@@ -2,6 +2,7 @@
 // that they hold, such as pressure in a cylinder, is a load on them.
 #pragma once
 
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +11,19 @@
 #include "system/system.h"
 
 namespace pintle {
+
+/// A part of a law that does nothing. It has as many states as the part, or the law, whose place it takes while a start is computed, so that the states of all laws keep their places.
+struct InertStates {
+  static constexpr std::string_view kWord = "inert states";
+  static constexpr bool kHolds = false, kRubs = false;
+  int states = 0;
+
+  int n_states() const { return states; }
+  template <class T>
+  void evaluate(const LawInput<T>&, LawOutput<T>&) const {}
+};
+
+inline std::unique_ptr<BasicLawPart<Planar>> inert_states(int states) { return BasicLaw<Planar>(InertStates{states}).parts().front()->clone(); }
 
 /// Holds one component at its present value.
 struct LockLaw {

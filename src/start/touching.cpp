@@ -15,7 +15,6 @@
 #include "laws/contact/gap_contact.h"
 #include "laws/law_tangents.h"
 #include "mobility/constraint_rows.h"
-#include "start/inert_states.h"
 #include "start/preload.h"
 #include "start/seat.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "start/inert_states.h"
+#include "start/locks.h"
 #include "start/relative/tree_gaps.h"
 
 namespace pintle {
