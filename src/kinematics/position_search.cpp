@@ -84,6 +84,13 @@ void kinematics_at(const System& system, double t, const Vecs& q, const Vecs& v,
 
 S::Vec gap_to_close(const JointData& joint, const JointKinematics& r) { return joint.law.misfit(r.gap); }
 
+double mechanism_size(const System& system, const Vecs& q) {
+  double size = 1e-6;
+  for (const auto& x : q) size = std::max({size, std::abs(x[0]), std::abs(x[1])});
+  for (const JointData& joint : system.joints) size = std::max({size, joint.at.F.p.norm(), joint.at.M.p.norm()});
+  return size;
+}
+
 PositionSearch::PositionSearch(const Model& model, const System& system, const std::vector<bool>& open)
     : model_(model), system_(system), equations_(system), weight_(joint_weights(system, open)) {
   for (int i = 0; i < system.n_bodies(); ++i)

@@ -37,6 +37,9 @@ void kinematics_at(const System& system, double t, const Vecs& q, const Vecs& v,
 /// The gap that assembly closes: a slack rope needs no closing.
 Planar::Vec gap_to_close(const JointData& joint, const JointKinematics& r);
 
+/// The largest coordinate of the mechanism [m].
+double mechanism_size(const System& system, const Vecs& q);
+
 /// The minimum of the joints' potential energy nearest to the guess, by Levenberg-Marquardt. theory/assembly Eqs. (1.1)-(1.4).
 class PositionSearch {
  public:

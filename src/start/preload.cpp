@@ -22,7 +22,7 @@ constexpr double kAbsurd = 100;  // ratio of the largest forces of two passes: t
 // Springs replace laws that give no force where the joints are; joints that start free or touch nothing are left alone.
 template <class S>
 std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
-  const double size = characteristic_length(system, state.q);
+  const double size = largest_coordinate(state.q);
   std::vector<int> open;
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
@@ -160,7 +160,7 @@ double change_of_gaps(const BasicSystem<S>& system, const BasicState<S>& before,
 
 template <class S>
 bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to) {
-  const double size = characteristic_length(system, from.q);
+  const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
   for (std::size_t i = 0; i < from.q.size(); ++i) {
     const typename S::Vec way = S::difference(from.q[i], to.q[i]);
     if (!(way.template head<S::kDim>().norm() <= size && way.template tail<S::kDof - S::kDim>().norm() <= std::numbers::pi)) return true;
@@ -297,6 +297,8 @@ void find_forces_and_accelerations(const System& system, State& state) {
   find_joint_forces(system, state);
   find_accelerations(system, m, r, state);
 }
+
+double characteristic_length(const System& system, const Vecs& q) { return std::max(mechanism_size(system, q), system.largest_radius_of_gyration()); }
 
 template bool moves_too_far(const BasicSystem<Planar>& system, const BasicState<Planar>& from, const BasicState<Planar>& to);
 template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);

@@ -41,4 +41,7 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state);
 template <class S>
 void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state);
 
+/// The mechanism's size, or its largest radius of gyration if that is larger, as for a rotor on its own axis [m].
+double characteristic_length(const System& system, const Vecs& q);
+
 }  // namespace pintle

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace pintle {
 
@@ -72,30 +70,6 @@ double largest_coordinate(const PositionsOf<Spatial>& x) {
 }
 
 template <class S>
-double mechanism_size(const BasicSystem<S>& system, const PositionsOf<S>& q) {
-  constexpr double kLeast = 1e-6;  // [m]
-  using Point = Eigen::Vector<double, S::kDim>;
-  Point least = Point::Constant(std::numeric_limits<double>::infinity()), most = -least;
-  const auto include = [&](const Point& p) {
-    least = least.cwiseMin(p);
-    most = most.cwiseMax(p);
-  };
-  double size = kLeast;
-  for (const auto& body : q) include(S::position(body));
-  for (const BasicJointData<S>& joint : system.joints)
-    for (const auto& [body, arm] : {std::pair(joint.at.a, joint.at.F.p), std::pair(joint.at.b, joint.at.M.p)}) {
-      if (body == kGround) include(arm);
-      else size = std::max(size, arm.norm());
-    }
-  return q.empty() ? size : std::max(size, (most - least).maxCoeff());
-}
-
-template <class S>
-double characteristic_length(const BasicSystem<S>& system, const PositionsOf<S>& q) {
-  return std::max(mechanism_size(system, q), system.largest_radius_of_gyration());
-}
-
-template <class S>
 double largest_angle(const PositionsOf<S>& q) {
   double largest = 1;
   if constexpr (S::kDof - S::kDim == 1)
@@ -127,10 +101,6 @@ bool is_finite(const BasicState<S>& state) {
 
 template double largest_coordinate(const VecsOf<Planar>&);
 PINTLE_IN_SPACE(template double largest_coordinate(const VecsOf<Spatial>&);)
-template double mechanism_size<Planar>(const System&, const PositionsOf<Planar>&);
-template double characteristic_length<Planar>(const System&, const PositionsOf<Planar>&);
-PINTLE_IN_SPACE(template double mechanism_size<Spatial>(const BasicSystem<Spatial>&, const PositionsOf<Spatial>&);)
-PINTLE_IN_SPACE(template double characteristic_length<Spatial>(const BasicSystem<Spatial>&, const PositionsOf<Spatial>&);)
 template double largest_angle<Planar>(const PositionsOf<Planar>& q);
 PINTLE_IN_SPACE(template double largest_angle<Spatial>(const PositionsOf<Spatial>& q);)
 template double largest_stiffness(const BasicSystem<Planar>& system);

@@ -50,12 +50,6 @@ double energy_of_joints(const BasicSystem<S>& system, const BasicState<S>& state
 /// The largest coordinate of any body, at least 1e-3: a measure of the rounding of positions, or of velocities [m or m/s].
 template <class Vec>
 double largest_coordinate(const std::vector<Vec>& x);
-/// How far the positions of bodies and the ground's points at joints lie apart, and the longest arm to a joint on a body, without regard to where the origin is [m].
-template <class S>
-double mechanism_size(const BasicSystem<S>& system, const PositionsOf<S>& q);
-/// The mechanism's size, or its largest radius of gyration if that is larger, as for a rotor on its own axis [m].
-template <class S>
-double characteristic_length(const BasicSystem<S>& system, const PositionsOf<S>& q);
 /// The largest angle of any body, counting turns in the plane; at least 1 rad.
 template <class S>
 double largest_angle(const PositionsOf<S>& q);

@@ -24,7 +24,7 @@ double largest_stiffness(const BasicJointData<S>& joint) {
 }  // namespace
 
 template <class S>
-BasicDeflectionScale<S>::BasicDeflectionScale(const BasicSystem<S>& system, const BasicState<S>& start) : size_(characteristic_length(system, start.q)) {
+BasicDeflectionScale<S>::BasicDeflectionScale(const BasicSystem<S>& system, const BasicState<S>& start) : size_(std::max(largest_coordinate(start.q), system.largest_radius_of_gyration())) {
   double weight = 0;
   for (const auto& body : system.bodies) weight += kStandardGravity * body.mass[0];
   for (const BasicJointData<S>& joint : system.joints) {
