@@ -84,7 +84,7 @@ OF_METHODS = [
     ("integrators/general/*", r"--method|_lagrangian"),
     ("integrators/methods.cpp", r"--method"),
     ("integrators/relative/*", r"--equations relative"),
-    ("start/tree_*", r"--equations relative"),
+    ("start/relative/*", r"--equations relative"),
     ("integrators/radau/*", r"^(?!.*(--method|--equations (ideal|augmented|relative_)))"),
     ("integrators/absolute/*", r"^(?!.*(--method|--equations (ideal|augmented|relative_)))"),
     ("laws/flexures/*", r"spring"),

@@ -73,7 +73,7 @@ CheckReport check_model(const Model& model) {
   CheckReport report;
   count(model, report);
   const bool settles = model.simulate.start == Start::kSettled;  // bodies may start inside each other, and only their position of rest is meaningful
-  const Assembly unstrained = assembled(model, settles ? Start::kSettled : Start::kUnloaded), loaded = settles ? unstrained : assembled(model, Start::kAssembled);
+  const Assembly unstrained = settles ? start_of_run(model) : assembled(model, Start::kUnloaded), loaded = settles ? unstrained : assembled(model, Start::kAssembled);
   report.notes = model.notes;
   report.notes.insert(report.notes.end(), loaded.notes.begin(), loaded.notes.end());
   weigh(model, loaded.state.q, report);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 namespace pintle {
 namespace {
@@ -43,20 +41,6 @@ struct Part {
   CurveGrid::AtPoints speed, squares;
 };
 
-// Where the curve through the samples is zero, between x = a and x = b, at which it has the values f_a and f_b of different signs: regula falsi, Illinois variant. An
-// integral up to there is wrong by the square of the distance.
-double zero_between(const CurveGrid& grid, const CurveGrid::Weights& samples, double a, double f_a, double b, double f_b) {
-  constexpr int kIterations = 6;  // with 4, turning points are wrong by 1e-5 of a step
-  for (int i = 0; i < kIterations; ++i) {
-    const double x = (a * f_b - b * f_a) / (f_b - f_a), f = value_at(grid, samples.data(), 1, x);
-    if (f == 0) return x;
-    if ((f < 0) == (f_b < 0)) f_a *= 0.5;
-    else std::tie(a, f_a) = std::pair{b, f_b};
-    std::tie(b, f_b) = std::pair{x, f};
-  }
-  return b;
-}
-
 void add_part(const CurveGrid& grid, const ForceSamplesOfStep& force, const TurnSamples& turn, const Part& part, double h, DutySums& sums) {
   const double length = part.to - part.from, time = h * length;
   const auto speed_at = [&](double x) { return std::abs(value_at(grid, turn.rate.data(), 1, part.from + length * x)); };
@@ -78,7 +62,6 @@ void add_part(const CurveGrid& grid, const ForceSamplesOfStep& force, const Turn
 
 // Adds the part from x = from to x = to of a step in which the pin reverses.
 void add_between_reversals(const CurveGrid& grid, const ForceSamplesOfStep& force, const TurnSamples& turn, double from, double to, double h, DutySums& sums) {
-  if (!(to > from)) return;
   Part part{from, to, {}, {}};
   for (std::size_t p = 0; p < part.speed.size(); ++p) {
     const CurveGrid::Weights weight = grid.weights(from + (to - from) * static_cast<double>(p) / CurveGrid::kIntervals);
@@ -101,15 +84,7 @@ void add_duty(const CurveGrid& grid, const ForceSamplesOfStep& force, const Curv
   for (std::size_t p = 0; p < power.size(); ++p) power[p] = std::sqrt(squares[p]) * (whole.speed[p] = std::abs(rate[p]));
   raise_peak(power, sums.peak_power);
   if (!turns_round) return add_part(grid, force, turn, whole, h, sums);
-  double from = 0;
-  const double interval = 1.0 / CurveGrid::kIntervals;
-  for (std::size_t p = 0; p + 1 < rate.size(); ++p) {
-    if (!(rate[p] * rate[p + 1] < 0)) continue;
-    const double to = zero_between(grid, turn.rate, static_cast<double>(p) * interval, rate[p], static_cast<double>(p + 1) * interval, rate[p + 1]);
-    add_between_reversals(grid, force, turn, from, to, h, sums);
-    from = to;
-  }
-  add_between_reversals(grid, force, turn, from, 1, h, sums);
+  for_each_sign(grid, turn.rate.data(), 1, rate, [&](double from, double to) { add_between_reversals(grid, force, turn, from, to, h, sums); });
 }
 
 template <class S>

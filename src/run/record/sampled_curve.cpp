@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "integrators/thresholds.h"
 #include "linalg/chebyshev_nodes.h"
@@ -65,21 +67,24 @@ CurveGrid::CurveGrid(int n) : n_(n) {
     at_point_[p] = weights(static_cast<double>(p) / kIntervals);
     for (std::size_t i = 0; i < of_sample_.size(); ++i) of_sample_[i][p] = at_point_[p][i];
   }
-  // Gauss's rule with four points is exact for polynomials of degree 7.
-  constexpr std::array<double, 2> kGauss{0.33998104358485626, 0.86113631159405258}, kWeight{0.65214515486254614, 0.34785484513745386};
-  const auto add_integral = [&](double from, double to, Weights& integral) {
-    for (std::size_t g = 0; g < kGauss.size(); ++g)
-      for (const double side : {-1.0, 1.0}) {
-        const Weights w = weights(from + 0.5 * (to - from) * (1 + side * kGauss[g]));
-        for (std::size_t i = 0; i < w.size(); ++i) integral[i] += 0.5 * (to - from) * kWeight[g] * w[i];
-      }
-  };
-  add_integral(0, 1, integral_);
-  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(n); ++i) add_integral(x_[i], x_[i + 1], after_[i]);
+  integral_ = integral(0, 1);
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(n); ++i) after_[i] = integral(x_[i], x_[i + 1]);
   for (std::size_t below = 0; below < last_coefficients_.size(); ++below) {
     const int degree = n - 1 - static_cast<int>(below);
     for (int i = 0; i < n; ++i) last_coefficients_[below][static_cast<std::size_t>(i)] = (degree == n - 1 ? 1.0 : 2.0) / (n - 1) * chebyshev_weight(n, degree, i);
   }
+}
+
+// Gauss's rule with four points is exact for polynomials of degree 7.
+CurveGrid::Weights CurveGrid::integral(double from, double to) const {
+  constexpr std::array<double, 2> kGauss{0.33998104358485626, 0.86113631159405258}, kWeight{0.65214515486254614, 0.34785484513745386};
+  Weights out{};
+  for (std::size_t g = 0; g < kGauss.size(); ++g)
+    for (const double side : {-1.0, 1.0}) {
+      const Weights w = weights(from + 0.5 * (to - from) * (1 + side * kGauss[g]));
+      for (std::size_t i = 0; i < w.size(); ++i) out[i] += 0.5 * (to - from) * kWeight[g] * w[i];
+    }
+  return out;
 }
 
 double CurveGrid::chebyshev_tail(const double* samples, int stride) const {
@@ -111,6 +116,18 @@ double weighted_sum(const CurveGrid& grid, const CurveGrid::Weights& weight, con
   double value = 0;
   for (int i = 0; i < grid.n(); ++i) value += weight[static_cast<std::size_t>(i)] * samples[i * stride];
   return value;
+}
+
+double zero_between(const CurveGrid& grid, const double* samples, int stride, double a, double f_a, double b, double f_b) {
+  constexpr int kIterations = 6;  // with 4, turning points are wrong by 1e-5 of a step
+  for (int i = 0; i < kIterations; ++i) {
+    const double x = (a * f_b - b * f_a) / (f_b - f_a), f = value_at(grid, samples, stride, x);
+    if (f == 0) return x;
+    if ((f < 0) == (f_b < 0)) f_a *= 0.5;
+    else std::tie(a, f_a) = std::pair{b, f_b};
+    std::tie(b, f_b) = std::pair{x, f};
+  }
+  return b;
 }
 
 double weighted_square(const CurveGrid& grid, const CurveGrid::Weights& weight, const double* samples, int stride, int n) {
@@ -148,6 +165,8 @@ CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int 
   const auto at = [&](double x) { return weighted_square(grid, grid.weights(x), samples, stride, n); };
   if constexpr (kind == Sums::kWithSign) {
     sums.integral += h * sum_of(kAll, component);
+  } else if constexpr (n == 1) {
+    for_each_sign(grid, samples, stride, component, [&](double from, double to) { sums.integral += h * std::abs(weighted_sum(grid, grid.integral(from, to), samples, stride)); });
   } else {
     CurveGrid::AtPoints size;
     for (std::size_t p = 0; p < size.size(); ++p) size[p] = std::sqrt(square[p]);

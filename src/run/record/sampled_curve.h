@@ -32,6 +32,8 @@ class CurveGrid {
   const AtPoints& of_sample(int sample) const { return of_sample_[static_cast<std::size_t>(sample)]; }
   /// Weights of the integral of the polynomial over the step, in units of the step.
   const Weights& integral() const { return integral_; }
+  /// The same from one fraction of the step to another.
+  Weights integral(double from, double to) const;
   /// The same from one sample to the next.
   const Weights& integral_after(int sample) const { return after_[static_cast<std::size_t>(sample)]; }
   /// Sum of the magnitudes of the last two Chebyshev coefficients of the polynomial through `samples[i * stride]`: what more samples might still change.
@@ -64,6 +66,22 @@ double largest_on_grid(const CurveGrid::AtPoints& value);
 double weighted_sum(const CurveGrid& grid, const CurveGrid::Weights& weight, const double* samples, int stride);
 /// The same at any fraction of the step.
 inline double value_at(const CurveGrid& grid, const double* samples, int stride, double x) { return weighted_sum(grid, grid.weights(x), samples, stride); }
+/// Where the curve is zero between the fractions x = a and x = b of the step, at which it has the values f_a and f_b of different signs: regula falsi,
+/// Illinois variant. An integral up to there is wrong by the square of the distance.
+double zero_between(const CurveGrid& grid, const double* samples, int stride, double a, double f_a, double b, double f_b);
+/// Calls part(from, to), fractions of the step, for each part of it in which the curve with these values at the points keeps its sign.
+template <class Part>
+void for_each_sign(const CurveGrid& grid, const double* samples, int stride, const CurveGrid::AtPoints& value, const Part& part) {
+  constexpr double kInterval = 1.0 / CurveGrid::kIntervals;
+  double from = 0;
+  for (std::size_t p = 0; p + 1 < value.size(); ++p) {
+    if ((value[p] < 0) == (value[p + 1] < 0)) continue;
+    const double to = zero_between(grid, samples, stride, static_cast<double>(p) * kInterval, value[p], static_cast<double>(p + 1) * kInterval, value[p + 1]);
+    if (to > from) part(from, to);
+    from = to;
+  }
+  if (from < 1) part(from, 1.0);
+}
 /// Square of the magnitude of the vector with the components `samples[i * stride + c]`, c < n, where the samples have these weights.
 double weighted_square(const CurveGrid& grid, const CurveGrid::Weights& weight, const double* samples, int stride, int n);
 
