@@ -81,8 +81,13 @@ inline double exp(double x) {
 inline double tanh(double x) { return std::tanh(x); }
 inline double sin(double x) { return std::sin(x); }
 inline double cos(double x) { return std::cos(x); }
-/// For x >= 0 and p > 1.
-inline double pow(double x, double p) { return std::pow(x, p); }
+/// For x >= 0. The powers of Hertz's contact, of its stiffness and of its energy need no logarithm, which takes ten times as long as a root.
+inline double pow(double x, double p) {
+  if (p == 0.5) return std::sqrt(x);
+  if (p == 1.5) return x * std::sqrt(x);
+  if (p == 2.5) return x * x * std::sqrt(x);
+  return std::pow(x, p);
+}
 inline double divide(double a, double b) { return a / b; }
 /// x where a > 0, else y.
 inline double where_positive(double a, double x, double y) { return a > 0 ? x : y; }
@@ -111,7 +116,7 @@ template <int M>
 Dual<M> cos(const Dual<M>& x) { return Dual<M>::scaled(std::cos(x.v), -std::sin(x.v), x); }
 template <int M>
 Dual<M> pow(const Dual<M>& x, double p) {
-  const double less = std::pow(x.v, p - 1);
+  const double less = pow(x.v, p - 1);
   return Dual<M>::scaled(x.v * less, p * less, x);
 }
 template <int M>
@@ -132,7 +137,7 @@ Lanes<N> sin(const Lanes<N>& x) { return each(x, [](double v) { return std::sin(
 template <int N>
 Lanes<N> cos(const Lanes<N>& x) { return each(x, [](double v) { return std::cos(v); }); }
 template <int N>
-Lanes<N> pow(const Lanes<N>& x, double p) { return each(x, [p](double v) { return std::pow(v, p); }); }
+Lanes<N> pow(const Lanes<N>& x, double p) { return each(x, [p](double v) { return pow(v, p); }); }
 template <int N>
 Lanes<N> divide(const Lanes<N>& a, const Lanes<N>& b) { return {a.v / b.v}; }
 template <int N>

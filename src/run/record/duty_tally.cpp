@@ -47,17 +47,17 @@ void add_part(const CurveGrid& grid, const ForceSamplesOfStep& force, const Turn
   const auto square_at = [&](double x) { return weighted_square(grid, grid.weights(part.from + length * x), force.first, force.stride, force.n); };
   // Adds the integral of f(square of the load) over the path.
   const auto add = [&](const CurveGrid::AtPoints& over_path, double& sum, bool every_second, auto f) {
-    sum += time * integral_over_step(over_path, sum / time, [&](double x) { return f(square_at(x)) * speed_at(x); }, every_second);
+    sum += time * integral_over_step(over_path, sum / time, grid.accuracy(), [&](double x) { return f(square_at(x)) * speed_at(x); }, every_second);
   };
   CurveGrid::AtPoints load;
   for (std::size_t p = 0; p < load.size(); ++p) load[p] = std::sqrt(part.squares[p]);
-  sums.path += time * integral_over_step(part.speed, sums.path / time, speed_at);
+  sums.path += time * integral_over_step(part.speed, sums.path / time, grid.accuracy(), speed_at);
   CurveGrid::AtPoints over_path = product(load, part.speed);
   add(over_path, sums.load, false, [](double f2) { return std::sqrt(f2); });
   over_path = product(over_path, part.squares);
   add(over_path, sums.load_3, false, [](double f2) { return f2 * std::sqrt(f2); });
   for (std::size_t p = 0; p < load.size(); p += 2) over_path[p] *= std::cbrt(load[p]);  // with a cube root at every point it takes most of the time of this function
-  add(over_path, sums.load_10_3, true, [](double f2) { return std::pow(f2, 5.0 / 3); });
+  add(over_path, sums.load_10_3, true, [](double f2) { return f2 * std::cbrt(f2 * f2); });
 }
 
 // Adds the part from x = from to x = to of a step in which the pin reverses.

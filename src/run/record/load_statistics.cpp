@@ -24,7 +24,7 @@ const BasicState<S>& on_curve(BasicStepper<S>& stepper, double t) {
 
 template <class S>
 BasicLoadRecorder<S>::BasicLoadRecorder(const BasicSystem<S>& system, const LoadSampling& sampling, bool with_heat, const Signals* signals)
-    : system_(system), grid_(sampling.n), sampling_(sampling), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()), wear_(system), duty_(system) {
+    : system_(system), grid_(sampling.n, sampling.accuracy), sampling_(sampling), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()), wear_(system), duty_(system) {
   const std::size_t joints = system.joints.size();
   stride_ = static_cast<int>(joints) * (S::kDof + 1) + n_signals_;
   samples_.resize(static_cast<std::size_t>(grid_.n() * stride_));

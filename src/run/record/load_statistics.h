@@ -20,6 +20,7 @@ struct LoadStatistics {
 /// At how many instants loads are sampled (see CurveGrid), and how finely.
 struct LoadSampling {
   int n = 3;              // instants of a step or of a part of it
+  double accuracy = CurveGrid::kFinest;  // of integrals of magnitudes, relative
   double resolution = 0;  // upper limit, as a fraction of the peak, on what curves through the samples leave out. Steps in which they leave more are halved; 0: none are
   double longest_part = std::numeric_limits<double>::infinity();  // into which such a step is divided at first [s]
 };

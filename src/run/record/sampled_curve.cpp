@@ -29,7 +29,6 @@ constexpr CurveGrid::AtPoints romberg_weights(int intervals) {
   return rule[levels - 1];
 }
 constexpr CurveGrid::AtPoints kAll = romberg_weights(CurveGrid::kIntervals), kHalf = romberg_weights(CurveGrid::kIntervals / 2), kQuarter = romberg_weights(CurveGrid::kIntervals / 4);
-constexpr double kSame = 1e-9;  // two rules agree if they differ by less, as a fraction of the integral. Halved or doubled, the mean force and the bearing load of swinging_roller_bearing change by 1e-10
 
 double sum_of(const CurveGrid::AtPoints& weight, const CurveGrid::AtPoints& value) {
   double sum = 0;
@@ -58,7 +57,7 @@ struct Parabola {
 
 }  // namespace
 
-CurveGrid::CurveGrid(int n) : n_(n) {
+CurveGrid::CurveGrid(int n, double accuracy) : n_(n), accuracy_(std::max(accuracy, kFinest)) {
   for (int i = 0; i < n; ++i) {
     x_[static_cast<std::size_t>(i)] = 0.5 * (1 - std::cos(std::numbers::pi * i / (n - 1)));
     barycentric_[static_cast<std::size_t>(i)] = (i % 2 == 0 ? 1 : -1) * (i == 0 || i == n - 1 ? 0.5 : 1);
@@ -139,8 +138,8 @@ double weighted_square(const CurveGrid& grid, const CurveGrid::Weights& weight, 
   return square;
 }
 
-RombergOnGrid::RombergOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second)
-    : integral(sum_of(every_second ? kHalf : kAll, value)), allowed(kSame * std::max(std::abs(integral), total)),
+RombergOnGrid::RombergOnGrid(const CurveGrid::AtPoints& value, double total, double accuracy, bool every_second)
+    : integral(sum_of(every_second ? kHalf : kAll, value)), allowed(accuracy * std::max(std::abs(integral), total)),
       agrees(!(std::abs(integral - sum_of(every_second ? kQuarter : kHalf, value)) > allowed)) {}
 
 double adaptive_romberg_integral(const std::function<double(double)>& at, double allowed) {
@@ -170,7 +169,7 @@ CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int 
   } else {
     CurveGrid::AtPoints size;
     for (std::size_t p = 0; p < size.size(); ++p) size[p] = std::sqrt(square[p]);
-    sums.integral += h * integral_over_step(size, sums.integral / h, [&](double x) { return std::sqrt(at(x)); });
+    sums.integral += h * integral_over_step(size, sums.integral / h, grid.accuracy(), [&](double x) { return std::sqrt(at(x)); });
   }
   sums.square += h * sum_of(kAll, square);
   const double beaten = sums.peak * sums.peak;

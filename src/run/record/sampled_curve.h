@@ -22,10 +22,13 @@ class CurveGrid {
   using Weights = std::array<double, kMost>;        // of the samples; those that do not exist have 0
   using AtPoints = std::array<double, kPoints>;
 
+  static constexpr double kFinest = 1e-9;  // least `accuracy`: halved or doubled, the mean force and the bearing load of swinging_roller_bearing change by 1e-10
   /// n samples, from 2 to kMost, at the extrema of the Chebyshev polynomial of degree n - 1; polynomials of that degree are reproduced exactly.
-  explicit CurveGrid(int n);
+  /// `accuracy`: of integrals of magnitudes, as a fraction of them.
+  explicit CurveGrid(int n, double accuracy = kFinest);
 
   int n() const { return n_; }
+  double accuracy() const { return accuracy_; }
   double instant(int sample) const { return x_[static_cast<std::size_t>(sample)]; }
   const Weights& at_point(int point) const { return at_point_[static_cast<std::size_t>(point)]; }
   /// Weights of one sample at all points.
@@ -43,6 +46,7 @@ class CurveGrid {
 
  private:
   int n_;
+  double accuracy_;
   Weights x_{}, barycentric_{}, integral_{};
   std::array<Weights, kMost> after_{};
   std::array<Weights, 2> last_coefficients_{};
@@ -88,18 +92,18 @@ double weighted_square(const CurveGrid& grid, const CurveGrid::Weights& weight, 
 /// Integral over a step, in units of the step, by Romberg's rule on every point, or on every second one. theory/time Eq. (5.3)
 struct RombergOnGrid {
   double integral;
-  double allowed;  // difference from the rule on half of these points that is small compared with the integral and with `total`, that of the steps so far
+  double allowed;  // difference from the rule on half of these points that is within `accuracy` of the integral or of `total`, that of the steps so far
   bool agrees;     // the difference is not larger
 
-  RombergOnGrid(const CurveGrid::AtPoints& value, double total, bool every_second);
+  RombergOnGrid(const CurveGrid::AtPoints& value, double total, double accuracy, bool every_second);
 };
 /// The integral of a function of the fraction of the step, halved until the rules agree.
 double adaptive_romberg_integral(const std::function<double(double)>& at, double allowed);
 
 /// Integral over the step of the function `at` of the fraction of the step, with these values at the points. The step is divided only near the kinks of a magnitude.
 template <class At>
-double integral_over_step(const CurveGrid::AtPoints& value, double total, const At& at, bool every_second = false) {
-  const RombergOnGrid grid_estimate(value, total, every_second);
+double integral_over_step(const CurveGrid::AtPoints& value, double total, double accuracy, const At& at, bool every_second = false) {
+  const RombergOnGrid grid_estimate(value, total, accuracy, every_second);
   return grid_estimate.agrees ? grid_estimate.integral : adaptive_romberg_integral(std::cref(at), grid_estimate.allowed);
 }
 

@@ -46,8 +46,8 @@ const std::vector<double>& BasicWearTally<S>::observe(const Worn& worn, const Ba
 template <class S>
 void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
   for (Worn& worn : worn_) {
-    const std::vector<double>& observed = observe(worn, state);
     if (worn.samples.size() <= static_cast<std::size_t>(i)) worn.samples.resize(static_cast<std::size_t>(i) + 1);
+    const std::vector<double>& observed = observe(worn, state);
     worn.samples[static_cast<std::size_t>(i)] = {observed[worn.power], observed[worn.angle], observed[worn.angle] - state.gap[static_cast<std::size_t>(worn.joint)][S::kTurn]};
   }
 }
@@ -58,12 +58,13 @@ int BasicWearTally<S>::finer_parts(const CurveGrid& grid) const {
   constexpr int kAtKink = 32;    // parts of a curve with a kink: the wear of the last sector of that swing is right to 1.1e-3; with 16, to 1.1e-2; with none, to 0.09
   int parts = 0;
   for (const Worn& worn : worn_) {
+    std::array<double, CurveGrid::kMost> power{};
+    for (int i = 0; i < grid.n(); ++i) power[static_cast<std::size_t>(i)] = worn.samples[static_cast<std::size_t>(i)].power;
+    if (power == decltype(power){}) continue;  // nothing touches
     const Sample &first = worn.samples.front(), &last = worn.samples[static_cast<std::size_t>(grid.n() - 1)];
     const double contact = std::remainder(last.on_bush - first.on_bush, kTurn), pin = (last.on_bush - last.on_pin) - (first.on_bush - first.on_pin);
     const double sectors = std::max(std::abs(pin), std::abs(contact)) * kSectors / kTurn;
     if (sectors > 1) parts = std::max(parts, kPerSector * static_cast<int>(std::ceil(sectors)));
-    std::array<double, CurveGrid::kMost> power{};
-    for (int i = 0; i < grid.n(); ++i) power[static_cast<std::size_t>(i)] = worn.samples[static_cast<std::size_t>(i)].power;
     if (2 * kAtKink * grid.chebyshev_tail(power.data(), 1) > *std::max_element(power.begin(), power.end())) parts = std::max(parts, kAtKink);
   }
   return parts;
