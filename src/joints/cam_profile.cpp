@@ -18,6 +18,10 @@ std::array<double, 1> in_turn(double angle) { return {angle - kTurn * std::floor
 
 CamProfile::CamProfile(const Cam& cam) : cam_(cam), hollow_(least_hollow_radius([this](double angle) { return pitch(angle); }, 0, kTurn)), bends_(find_bends([this](double angle) { return radius(angle)[2]; }, 0, kTurn)) {
   bends_.period = kTurn;
+  if (cam_.flat || !std::isfinite(hollow_)) return;
+  constexpr int kPoints = 1440;
+  table_.spacing = kTurn / kPoints;
+  for (int i = 0; i < kPoints; ++i) table_.points.push_back(pitch(i * table_.spacing).p);
 }
 
 std::array<double, 3> CamProfile::radius(double angle) const {
@@ -35,7 +39,7 @@ CurvePoint CamProfile::pitch(double angle) const {
 double CamProfile::foot(const Planar::Point& c) const {
   const auto sight = [&c](double way) { return way < c.norm() ? std::asin(way / c.norm()) : kTurn / 2; };
   const auto point = [this](double angle) { return Planar::Point((zero_lift_radius() + cam_.lift.value(in_turn(angle))) * direction(angle)); };
-  return nearest_parameter([this](double angle) { return pitch(angle); }, point, c, std::atan2(c[1], c[0]), hollow_, sight);
+  return nearest_parameter([this](double angle) { return pitch(angle); }, point, c, std::atan2(c[1], c[0]), hollow_, sight, table_);
 }
 
 std::array<GapFunction, 2> CamGap::gap_and_slip(const Planar::Vec& z) const {

@@ -44,6 +44,7 @@ class CamProfile {
   Cam cam_;
   double hollow_;  // the least radius of curvature on the concave parts of the pitch curve [m]
   Bends bends_;
+  CurveTable table_;  // of the pitch curve, if it has concave parts
 };
 
 }  // namespace pintle

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "joints/gap_function.h"
 #include "pintle/expression.h"
@@ -42,20 +44,39 @@ std::optional<double> nearest_by_newton(const Curve& curve, const Planar::Point&
   return {};
 }
 
+/// Points of a closed curve at multiples of `spacing` of its parameter, for one period.
+struct CurveTable {
+  double spacing = 0;
+  std::vector<Planar::Point> points;
+
+  const Planar::Point& point(std::ptrdiff_t i) const {
+    const auto n = static_cast<std::ptrdiff_t>(points.size());
+    return points[static_cast<std::size_t>((i % n + n) % n)];
+  }
+};
+
 /// The same, starting from the nearest of sample points between two parameters, at most `apart` from each other; by bisection between that point's
-/// neighbours if Newton's method leaves this interval. point(parameter) is the curve's point alone.
+/// neighbours if Newton's method leaves this interval. point(parameter) is the curve's point alone; the samples are those of the table if it is fine enough.
 template <class Curve, class Point>
-double nearest_by_sampling(const Curve& curve, const Point& point, const Planar::Point& c, double low, double high, double apart) {
+double nearest_by_sampling(const Curve& curve, const Point& point, const Planar::Point& c, double low, double high, double apart, const CurveTable& table) {
   constexpr double kMost = 360;  // intervals
   constexpr int kHalves = 60;
   const double intervals = std::ceil(std::clamp((high - low) / apart, 1.0, kMost));
   apart = (high - low) / intervals;
   double best = low, least = std::numeric_limits<double>::infinity();
-  for (double i = 0; i <= intervals; ++i)
-    if (const double square = (c - point(low + apart * i)).squaredNorm(); square < least) {
-      least = square;
-      best = low + apart * i;
-    }
+  const auto see = [&](double parameter, const Planar::Point& sample) {
+    const double square = (c - sample).squaredNorm();
+    if (!(square < least)) return;
+    least = square;
+    best = parameter;
+  };
+  if (!table.points.empty() && apart >= table.spacing) {
+    const auto stride = static_cast<std::ptrdiff_t>(apart / table.spacing), last = static_cast<std::ptrdiff_t>(std::ceil(high / table.spacing));
+    for (auto i = static_cast<std::ptrdiff_t>(std::floor(low / table.spacing)); i < last + stride; i += stride) see(static_cast<double>(i) * table.spacing, table.point(i));
+    apart = static_cast<double>(stride) * table.spacing;
+  } else {
+    for (double i = 0; i <= intervals; ++i) see(low + apart * i, point(low + apart * i));
+  }
   if (const std::optional<double> found = nearest_by_newton(curve, c, best); found && std::abs(*found - best) < apart) return *found;
   double before = best - apart, behind = best + apart;
   for (int i = 0; i < kHalves; ++i) {
@@ -78,15 +99,15 @@ double least_hollow_radius(const Curve& curve, double low, double high) {
 
 /// The parameter of the point nearest to c, Eq. (2.1): by Newton's method from the parameter of the point `below` c, and where another point may be
 /// nearer, or Newton's method fails, from the nearest of many samples. `hollow` is the least_hollow_radius; half_range(distance) is how far from `below`
-/// the parameter of a point within that distance of c may be.
+/// the parameter of a point within that distance of c may be. `table` may be empty.
 template <class Curve, class Point, class HalfRange>
-double nearest_parameter(const Curve& curve, const Point& point, const Planar::Point& c, double below, double hollow, const HalfRange& half_range) {
+double nearest_parameter(const Curve& curve, const Point& point, const Planar::Point& c, double below, double hollow, const HalfRange& half_range, const CurveTable& table) {
   constexpr double kSurely = 0.9;  // as a fraction of the least hollow radius, which is known at some points only
   constexpr double kPart = 0.25;  // largest distance of sample points, as a fraction of it. Of the 4500 points of edge_profile_test one is given a point that is not the nearest with 0.5, and 13 with 2
   const std::optional<double> found = nearest_by_newton(curve, c, below);
   const double distance = (c - point(found ? *found : below)).norm();
   if (found && distance < kSurely * hollow) return *found;
-  const double sampled = nearest_by_sampling(curve, point, c, below - half_range(distance), below + half_range(distance), half_range(kPart * hollow));
+  const double sampled = nearest_by_sampling(curve, point, c, below - half_range(distance), below + half_range(distance), half_range(kPart * hollow), table);
   return found && distance < (c - point(sampled)).norm() ? *found : sampled;
 }
 

@@ -49,7 +49,7 @@ EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge) {
 // Points within the distance `way` of c are within the same distance of it along x.
 double EdgeProfile::nearest(const Planar::Point& c) const {
   const auto point = [this](double u) { return Planar::Point(-u, edge_.height.value(std::array{-u})); };
-  return -nearest_parameter([this](double u) { return at(-u); }, point, c, -c[0], hollow_, [](double way) { return way; });
+  return -nearest_parameter([this](double u) { return at(-u); }, point, c, -c[0], hollow_, [](double way) { return way; }, {});
 }
 
 std::array<GapFunction, 2> EdgeGap::gap_and_slip(const Planar::Vec& z) const {

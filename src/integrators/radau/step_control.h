@@ -112,14 +112,15 @@ class StepControl {
   };
 
   // Where the located position of an event depends on how far the step overshoots it, attempts converge by a constant ratio: after a few of them the
-  // next one goes to their limit.
+  // next one goes to their limit. If they do not converge, the step is too long for its curve to be the motion, and is halved.
   class Approach {
    public:
     double further(double h, double share, bool solved) {
       const double beyond = (1 - share) * h, ratio = beyond / beyond_before_;
       trials_ = solved ? trials_ + 1 : 0;
       beyond_before_ = beyond;
-      return trials_ > kSlow && ratio > 0 && ratio < 1 ? std::min(beyond * ratio / (1 - ratio), 0.5 * share * h) : 0;
+      if (trials_ <= kSlow || !(ratio > 0)) return 0;
+      return ratio < 1 ? std::min(beyond * ratio / (1 - ratio), 0.5 * share * h) : 0.5 * share * h;
     }
 
    private:
