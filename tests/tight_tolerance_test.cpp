@@ -78,6 +78,17 @@ TEST(TightTolerance, AStrutPressesOnItsStopInFewSteps) {
   }
 }
 
+// The same where another body moves fast meanwhile. At each tolerance the run took 120,000 steps and failed.
+TEST(TightTolerance, ABufferStruckWhereItsSpringBeginsLeavesThere) {
+  for (const double tolerance : {1e-3, 1e-5}) {
+    Model model = reference::test_model("buffer_struck_on_its_kink");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    EXPECT_LT(run.counters.steps + run.counters.rejected, 40000u) << tolerance;
+    EXPECT_NEAR(std::abs(run.motors.at(0).peak_effort), 1305.4, 0.2) << tolerance;  // 25 m/s 0.06 1.6/0.26 sqrt(1e5 N/m 0.2 kg), less what moves during the impact
+  }
+}
+
 // The guide of a mass at its own centre carries a couple of a millionth of a newton metre, below the roundoff of a hundred radians times the guide's stiffness.
 TEST(TightTolerance, CouplesOfRoundingTakeNoSteps) {
   Model model = reference::test_model("mass_in_a_turning_guide");

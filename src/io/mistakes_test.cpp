@@ -340,9 +340,11 @@ TEST(Mistakes, AFrequencyBehindAParameterIsNoSpeed) {
     }
     return "";
   };
-  for (const char* speed : {"f", "2*f", "5 Hz", "f/2"}) EXPECT_NE(complaint("f = \"5 Hz\"", speed).find("a frequency is not turns per second"), std::string::npos) << speed;
-  EXPECT_NE(complaint("f = \"5 Hz\"\ng = \"2*f\"", "g").find("a frequency is not turns per second"), std::string::npos);
+  for (const char* speed : {"f", "2*f", "5 Hz", "f/2"}) EXPECT_NE(complaint("f = \"5 Hz\"", speed).find("would count radians, not turns"), std::string::npos) << speed;
+  EXPECT_NE(complaint("f = \"5 Hz\"\ng = \"2*f\"", "g").find("would count radians, not turns"), std::string::npos);
   for (const char* speed : {"2*pi*f", "f*1 rev", "300 rpm"}) EXPECT_EQ(complaint("f = \"5 Hz\"", speed), "") << speed;
+  for (const char* speed : {"n", "n/2", "300 min^-1", "300*1/(1 min)"}) EXPECT_NE(complaint("n = \"300 min^-1\"", speed).find("would count radians, not turns"), std::string::npos) << speed;
+  for (const char* speed : {"n*2*pi", "n*1 rev", "min(w, 3 rad/s)", "w*(1 min)/(2 min)", "min(w, w)"}) EXPECT_EQ(complaint("n = \"300 min^-1\"\nw = \"2 rad/s\"", speed), "") << speed;
   EXPECT_EQ(complaint("T = \"1/(5 Hz)\"", "1 rev/T"), "");
 }
 

@@ -165,7 +165,7 @@ class VariationReader {
     const auto quantity = reading_.records.read_quantity(node, path_ + "." + std::string(key));
     if (!quantity) return;
     if (node.string() != nullptr)
-      if (auto problem = reading_.records.angular_speed_in_hertz_error(*node.string(), key_.dimension)) return complain(node.spot, key, describe(node), *problem, kSpeedExample);
+      if (auto problem = reading_.records.frequency_for_speed_error(*node.string(), key_.dimension)) return complain(node.spot, key, describe(node), *problem, kSpeedExample);
     if (auto problem = check_dimension(quantity->dimension, key_.dimension)) complain(node.spot, key, describe(node), *problem, example());
     if ((key == "from" || key == "to") && !key_.allows(quantity->si) && !(key == "from" && quantity->si == key_.minimum))
       complain(node.spot, key, describe(node), "the key itself cannot have this value", "a value inside its range");

@@ -337,9 +337,13 @@ void demand_apart(const Model& model, const System& system, const Vecs& q, const
     if (const auto breach = joint.law.breach(r[j].gap)) demand_within_stops(joint, r[j].gap[breach->component], *breach, kDeep * (breach->component == 2 ? 1 : size));
     if (const auto belt = belt_of(joint.displacement)) demand_reach(joint, *belt, system.pose(joint.at, m).z);
     const double depth = joint.law.penetration(r[j].gap);
-    if (depth > kDeep * size && model.simulate.start != Start::kSettled)  // a settled start pushes them apart first
-      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), its two markers in the other order (the first one carries the edge), a start position apart from it, or start = \"settled\", which lets them push each other apart.{}",
-                                      joint.name, depth, notes.empty() ? "" : fmt::format("\n  {}", fmt::join(notes, "\n  "))));
+    if (depth <= kDeep * size || model.simulate.start == Start::kSettled) continue;  // a settled start pushes them apart first
+    const bool loose = joint.free_mask.head<2>().isZero() || joint.free_mask[2] == 0;  // a pin or a slide with clearance, which has no other side
+    if (loose)
+      throw AssemblyError(fmt::format("joint {}: at the stated positions its parts are {:.4g} m farther apart than its clearance.\n  Try positions nearer to each other, or start = \"assembled\" or \"seated\", which put them there",
+                                      joint.name, depth));
+    throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), its two markers in the other order (the first one carries the edge), a start position apart from it, or start = \"settled\", which lets them push each other apart.{}",
+                                    joint.name, depth, notes.empty() ? "" : fmt::format("\n  {}", fmt::join(notes, "\n  "))));
   }
 }
 

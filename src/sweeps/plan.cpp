@@ -128,7 +128,7 @@ class AxisReader {
       return std::nullopt;
     }
     const Quantity& quantity = std::get<Quantity>(parsed);
-    if (const auto problem = reading_.records.angular_speed_in_hertz_error(word, key_.dimension)) {
+    if (const auto problem = reading_.records.frequency_for_speed_error(word, key_.dimension)) {
       complain(offset, *problem, kSpeedExample);
       return std::nullopt;
     }

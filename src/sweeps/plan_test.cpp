@@ -55,7 +55,7 @@ TEST(SweepPlan, PathsLeadToNumbers) {
 }
 
 TEST(SweepPlan, AFrequencyIsNoSpeed) {
-  EXPECT_TRUE(contains(complaint_about(request({"body.bob.spin=5,10 Hz"})), "a frequency is not turns per second"));
+  EXPECT_TRUE(contains(complaint_about(request({"body.bob.spin=5,10 Hz"})), "would count radians, not turns"));
   EXPECT_EQ(complaint_about(request({"body.bob.spin=5,10 rad/s"})), "");
 }
 

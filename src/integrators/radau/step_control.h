@@ -162,7 +162,7 @@ class StepControl {
   template <class Method>
   bool is_crossed_at_start(Method& method, double after) const {
     const bool out_of_reach = unreached_ >= kFewShort && is_same_distance(after, short_step_);
-    return is_at_start(after) && (out_of_reach || method.forces_stay_constant(after));
+    return out_of_reach ? after < kOnTheWay * usual : is_at_start(after) && method.forces_stay_constant(after);
   }
   static bool is_same_distance(double a, double b) { return std::abs(a - b) < kSameDistance * a; }
 

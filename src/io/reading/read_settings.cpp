@@ -166,7 +166,7 @@ class ParameterReader {
                               "a parameter's name is a letter, then letters, digits and _", "no other character in it");
     } else if (const auto read = reading_.records.read_quantity(entry.value, path)) {
       value = *read;
-      if (const std::string* text = entry.value.string(); text != nullptr && fits(value.dimension, kAngularSpeed) && reading_.records.is_in_hertz(*text)) reading_.records.in_hertz.push_back(entry.key);
+      if (const std::string* text = entry.value.string(); text != nullptr && fits(value.dimension, kAngularSpeed) && reading_.records.is_frequency(*text)) reading_.records.frequencies.push_back(entry.key);
     }
     values_[entry.key] = value;
   }

@@ -52,7 +52,7 @@ class RecordReader {
 
   /// The constants available to expressions, and those of them that are frequencies.
   ParseScope scope;
-  std::vector<std::string> in_hertz;
+  std::vector<std::string> frequencies;
   /// Variables of expressions beyond the schema's own; called with the expression's text if it may read joints.
   std::function<void(std::string_view text, std::vector<std::pair<std::string, Dimension>>& variables)> joint_variables;
 
@@ -65,11 +65,11 @@ class RecordReader {
   std::optional<double> read_number(const Node& node, const KeySpec& spec, const std::string& path);
   /// The same before dimension and range are checked.
   std::optional<Quantity> read_quantity(const Node& node, const std::string& path);
-  /// Whether the text states a frequency: a number of hertz, or a constant that is one, and no angle.
-  bool is_in_hertz(std::string_view text) const;
-  /// Why the text cannot stand for a quantity of this dimension, if that is a rotational speed and the text a frequency: the user means turns per second, the unit
-  /// system 1/s, where a radian is 1.
-  std::optional<std::string> angular_speed_in_hertz_error(std::string_view text, const Dimension& wanted) const;
+  /// Whether the text states a frequency: a number of hertz or one per minute, or a constant that is one, and no angle.
+  bool is_frequency(std::string_view text) const;
+  /// Why the text cannot stand for a quantity of this dimension, if that is a rotational speed and the text a frequency: the user means turns per second, or per
+  /// minute, the unit system 1/s, where a radian is 1.
+  std::optional<std::string> frequency_for_speed_error(std::string_view text, const Dimension& wanted) const;
   std::optional<Marker> read_marker(const Entry& entry, const std::string& path);
   /// Whether the node is a table. Complains if not.
   bool is_table(const Node& node, const std::string& path);
@@ -105,6 +105,11 @@ class RecordReader {
 };
 
 /// What to write instead of a frequency.
+/// Whether the text has the unit of a frequency, Hz, kHz or, where it is not the function, min.
+bool mentions_frequency(std::string_view text);
+/// Units such as 1/min in the head of a column: why they are refused, and what to write.
+inline constexpr const char* kFrequencyUnit = "this unit would count radians, not turns";
+inline constexpr const char* kSpeedUnits = "\"rpm\", \"rev/s\", \"rad/s\", or \"1/s\" for what is no speed of rotation";
 inline constexpr const char* kSpeedExample = "\"120 rpm\", \"2 rev/s\" or \"4*pi rad/s\"";
 
 /// Why a key cannot have this number; "" if it can.

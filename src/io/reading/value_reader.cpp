@@ -113,13 +113,26 @@ std::string range_problem(double number, const KeySpec& spec) {
   return {};
 }
 
-bool RecordReader::is_in_hertz(std::string_view text) const {
-  return (mentions(text, {"Hz", "kHz"}) || mentions(text, in_hertz)) && !mentions(text, {"pi", "rad", "deg", "rev", "turn"});
+bool mentions_frequency(std::string_view text) {
+  if (mentions(text, {"Hz", "kHz"})) return true;
+  for (std::size_t at = text.find("min"); at != std::string_view::npos; at = text.find("min", at + 1)) {
+    const std::size_t behind = skip_blanks(text, at + 3);
+    const bool whole = (at == 0 || !is_word_part(text[at - 1])) && (at + 3 == text.size() || !is_word_part(text[at + 3]));
+    if (whole && !(behind < text.size() && text[behind] == '(')) return true;
+  }
+  return false;
 }
 
-std::optional<std::string> RecordReader::angular_speed_in_hertz_error(std::string_view text, const Dimension& wanted) const {
-  if (wanted != kAngularSpeed || !is_in_hertz(text)) return std::nullopt;
-  return "a rotational speed is expected here; a frequency is not turns per second, but 1/s";
+bool RecordReader::is_frequency(std::string_view text) const {
+  if (!(mentions_frequency(text) || mentions(text, frequencies)) || mentions(text, {"pi", "rad", "deg", "rev", "turn"})) return false;
+  const auto parsed = parse_quantity(text, scope);
+  const Quantity* quantity = std::get_if<Quantity>(&parsed);
+  return quantity == nullptr || quantity->dimension.exponents[3] == 0;  // not a speed in rad/s multiplied by minutes
+}
+
+std::optional<std::string> RecordReader::frequency_for_speed_error(std::string_view text, const Dimension& wanted) const {
+  if (wanted != kAngularSpeed || !is_frequency(text)) return std::nullopt;
+  return "a rotational speed is expected here; a frequency in Hz or 1/min would count radians, not turns";
 }
 
 void RecordReader::complain(const ParseProblem& problem, const Node& node, const std::string& path) {
@@ -184,7 +197,7 @@ std::optional<double> RecordReader::read_number(const Node& node, const KeySpec&
 
 std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& spec, const std::string& path) {
   if (const std::string* text = node.string(); text != nullptr && !is_function_of_time(node, spec))
-    if (auto problem = angular_speed_in_hertz_error(*text, spec.dimension)) {
+    if (auto problem = frequency_for_speed_error(*text, spec.dimension)) {
       complaints_.add(node.spot, path, describe(node), std::move(*problem), kSpeedExample);
       return std::nullopt;
     }
