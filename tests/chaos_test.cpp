@@ -84,6 +84,21 @@ TEST(Chaos, PassesThatGrowApartAtDifferentRatesAreThoseOfChaos) {
   EXPECT_GT(run.growth.horizon, 10);
 }
 
+// Without joints only the motion has errors.
+TEST(Chaos, AMechanismWithoutJointsHasAHorizonToo) {
+  Model model = reference::test_model("plate_on_two_springs");
+  const Trajectory missed = simulate(model);
+  EXPECT_EQ(missed.outcome, Outcome::kToleranceNotMet);
+  EXPECT_NE(missed.message.find("position error"), std::string::npos) << missed.message;
+  model.simulate.duration = 60;
+  model.simulate.tolerance = 1e-9;
+  const Trajectory chaotic = simulate(model);
+  EXPECT_EQ(chaotic.outcome, Outcome::kHorizon);
+  EXPECT_NE(chaotic.message.find("positions are promised"), std::string::npos) << chaotic.message;
+  EXPECT_GT(chaotic.growth.horizon, 5);
+  EXPECT_LT(chaotic.growth.horizon, 18);
+}
+
 TEST(Chaos, RegularMotionsAreNotChaotic) {
   for (const char* name : {"pendulum", "four_bar", "slider_crank", "n_four_bar_1", "five_bar_parallelogram", "six_bar", "andrews", "quick_return"})
     for (const double tolerance : {1e-3, 1e-5}) {

@@ -330,5 +330,14 @@ TEST(RelativeCoordinates, StopsOfAnIdealPinAreLeftOutOfTheStartToo) {
   EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("joint A is ideal: its stops are not in these equations") != std::string::npos; }));
 }
 
+// No coordinate could follow the length, and no step would see that it changes.
+TEST(RelativeCoordinates, ADrivenLengthNeedsACoordinate) {
+  Model model = reference::test_model("welded_plate_with_a_driven_rod");
+  const Trajectory run = reference::completed(model);
+  EXPECT_NEAR(run.joints.at(1).peak, 98, 0.5);  // 1e6 N/m of 0.1 mm, and a weld that yields
+  model.simulate.equations = Equations::kRelative;
+  EXPECT_THROW(simulate(model), AssemblyError);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -409,11 +409,12 @@ class Passes {
     return fmt::format("; {} {} keeps switching where its expression jumps and is held there, with a lag that finer passes hardly reduce", held.applied ? "force" : "motor", held.name);
   }
 
-  std::string missed_message(const BasicJointData<S>& worst) const {
+  // `worst` is not needed for an error of the motion.
+  std::string missed_message(const BasicJointData<S>* worst) const {
     std::string what = "position error", of = "the longest path of any body";
     if (!out_.of_motion) {
-      const bool couple = is_of_couple(worst);
-      what = fmt::format("{} error, at {} {},", couple ? "couple" : "force", worst.servo < 0 ? "joint" : "motor", worst.name);
+      const bool couple = is_of_couple(*worst);
+      what = fmt::format("{} error, at {} {},", couple ? "couple" : "force", worst->servo < 0 ? "joint" : "motor", worst->name);
       of = couple ? fmt::format("the peak couple, or of {:g} of what the mechanism's forces could make", kNegligible) : "the peak force";
     }
     return fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}{}{}", what, error_, of, settings_.tolerance,
@@ -421,9 +422,9 @@ class Passes {
   }
 
   // Sets how the run ended. If a pass broke off, the results are those of the previous one.
-  // `worst` is the joint with the largest error; null if there is no estimate.
+  // `worst` is the joint with the largest error; null if there is none, or no estimate.
   void judge(const BasicJointData<S>* worst) {
-    const bool no_estimate = worst == nullptr;
+    const bool no_estimate = worst == nullptr && !(out_.of_motion && coarse_);
     const auto& [ended, message] = interrupted_;
     const bool unbounded = last_.unbounded_reactions >= 0 && !out_.of_motion;
     const bool whole = last_.ended == Ended::kAtEnd, missed = error_ > settings_.tolerance || unbounded;
@@ -436,7 +437,7 @@ class Passes {
     if (no_estimate && context_.shape.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
-    if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate) out_.message = missed_message(*worst);
+    if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate) out_.message = missed_message(worst);
     if (unbounded && out_.outcome == Outcome::kToleranceNotMet) out_.message = fmt::format("the reactions of ideal joints have no bound at the singular position near t = {:.6g} s, whatever the tolerance: give these joints stiffness", last_.unbounded_reactions);
     if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;

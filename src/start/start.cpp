@@ -188,6 +188,14 @@ void note_undetermined_reactions(const System& system, const JointTree& tree, As
   name_undetermined_reactions(check_mobility(system, assembly.state.q).redundancies, is_in_tree, "relative coordinates, in which only opened joints are compliant", assembly.notes, assembly.not_unique);
 }
 
+// Stages without coordinates do not solve for the gaps of joints whose lengths are driven.
+void demand_coordinates(const System& system, const JointTree& tree) {
+  if (tree.n() > 0) return;
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (!tree.in_tree(j) && system.joints[j].driven >= 0)
+      throw AssemblyError(fmt::format("joint {}: its length is driven, and ideal joints leave no coordinate that could move.\n  Try equations = \"newtonian\", in which they yield", system.joints[j].name));
+}
+
 // Several speed or position motors on fewer degrees of freedom: the differences between their demands deflect joints.
 void note_conflicting_motors(const System& system, const Vecs& q, std::vector<std::string>& notes) {
   std::string names;
@@ -218,6 +226,7 @@ Assembly start_as_asked(const Model& model, double known_span) {
   System system = build_system(model);
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, std::move(system), known_span);
   const JointTree tree(system);
+  demand_coordinates(system, tree);
   Assembly assembly = start_of_free_bodies(model, with_stiff_tree(system, tree), known_span);
   if (!tree.all_free()) {
     for (int j = 0; j < system.n_joints(); ++j)

@@ -68,8 +68,11 @@ template <class S>
 void promise_until_horizons(const BasicSystem<S>& system, const BasicForceRecorder<S>& coarse, const BasicForceRecorder<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizons = force_horizons(system, coarse.forces(), fine.forces(), share, within);
-  if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse.forces(), fine.forces()), within));
   out.growth = {growth.rate, growth.rate_error, out.t_end};
+  if (out.of_motion) {
+    out.growth.horizon = curve_horizon(motion_difference_curve(system, coarse.forces(), fine.forces()), within);
+    horizons.assign(joints, out.growth.horizon);
+  }
   state_errors_until(system, coarse.forces(), fine.forces(), horizons, share, least, out.joints);
   const LoadSummary* earliest = nullptr;
   std::size_t row = 0;
@@ -87,11 +90,11 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceRecord
     joint.mean_scatter = std::max(std::abs(now.mean - other.mean), within_run.mean);
     if (earliest == nullptr || joint.horizon < earliest->horizon) earliest = &joint;
   }
-  if (earliest != nullptr) out.growth.horizon = earliest->horizon;
+  if (earliest != nullptr && !out.of_motion) out.growth.horizon = earliest->horizon;
   out.message = fmt::format(
-      "joint forces are promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and integrations with tolerances down to {:.1g} diverge from each other before its end; "
+      "{} promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and integrations with tolerances down to {:.1g} diverge from each other before its end; "
       "peaks, means and RMS after that are statistics",
-      out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error, least.tolerance);
+      out.of_motion ? "positions are" : "joint forces are", out.growth.horizon, earliest != nullptr && !out.of_motion ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error, least.tolerance);
 }
 
 template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceRecorder<Planar>& coarse, const BasicForceRecorder<Planar>& fine, double share, double within, const BasicLeastError<Planar>& least, const ErrorGrowth& growth, Trajectory& out);
