@@ -16,7 +16,8 @@ template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), open_contact_error(h), ringing_behind_event(h),
+  const auto force_at = [this](int node, int j) -> const typename S::Vec& { return node == 0 ? begin_.force[j] : stage_[node - 1].force[j]; };
+  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), force_tail_.size(table_, scale_, force_at), open_contact_error(h), ringing_behind_event(h),
                                                      bends_.missed_between_samples(begin_.t, h, end_m_, stage_[n_ - 1].m, scale_)});
   return std::isfinite(error);
 }
@@ -68,22 +69,6 @@ double BasicRadauStepper<S>::ringing_behind_event(double h) const {
     largest = std::max(largest, unresolved_ringing(system_, j, at, system_.kinematics(j, t, last.m), last_coefficient, h, n_, scale_));
   }
   return largest;
-}
-
-// Friction in joints may act on next to no mass. theory/time Eq. (3.21).
-template <class S>
-double BasicRadauStepper<S>::friction_tail() const {
-  TailSize size;
-  for (const auto& [j, free] : rubbing_) {
-    const typename S::Vec load = load_on(system_.joints[j].at, scale_);
-    typename S::Vec tail[3];
-    for (int back = 0; back < 3; ++back) {
-      tail[back] = table_.to_legendre(n_ - back, 0) * begin_.force[j];
-      for (int s = 0; s < n_; ++s) tail[back] += table_.to_legendre(n_ - back, s + 1) * stage_[s].force[j];
-    }
-    for (int k = 0; k < S::kDof; ++k) size.add((free[k] / load[k]) * Lanes<4>::of({tail[0][k], tail[1][k], tail[2][k], 0}));
-  }
-  return size.value();
 }
 
 // Legendre coefficients of the body forces M a, as accelerations that the bodies can follow within the step: stiff joints hold back
@@ -222,7 +207,6 @@ template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error)
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
 template double BasicRadauStepper<Planar>::open_contact_error(double h) const;
 template double BasicRadauStepper<Planar>::ringing_behind_event(double h) const;
-template double BasicRadauStepper<Planar>::friction_tail() const;
 template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
@@ -236,7 +220,6 @@ PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double 
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::open_contact_error(double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::ringing_behind_event(double h) const;)
-PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::finish_step(double h);)

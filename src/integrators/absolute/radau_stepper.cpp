@@ -2,26 +2,34 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "integrators/thresholds.h"
 
 namespace pintle {
 
+namespace {
+
+template <class S>
+std::vector<int> all_joints(const BasicSystem<S>& system) {
+  std::vector<int> all(system.joints.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
 template <class S>
 BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : Events(system), system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), end_point_(make_end_point_projection(system)),
-      tails_{std::vector<RowOf4<S>>(system.bodies.size()), std::vector<RowOf4<S>>(system.joints.size()), std::vector<RowOf4<S>>(system.n_law_states() > 0 ? system.joints.size() : 0)}, open_contacts_(system), bends_(system), end_m_(system.bodies.size()) {
+      tails_{std::vector<RowOf4<S>>(system.bodies.size()), std::vector<RowOf4<S>>(system.joints.size()), std::vector<RowOf4<S>>(system.n_law_states() > 0 ? system.joints.size() : 0)}, open_contacts_(system), force_tail_(system, all_joints(system)), bends_(system), end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const VecsOf<S> bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   const std::vector<double> states(system.n_law_states());
   for (int j = 0; j < system.n_joints(); ++j)
     if (system.joints[j].driven >= 0 || !system.joints[j].law.as_linear()) powered_.push_back(j);
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const BasicLaw<S>& law = system.joints[j].law;
-    if (law.has_friction() && law.n_states() == 0) rubbing_.emplace_back(j, (law.engaged_stiffness().array() > 0).select(S::Vec::Zero(), S::Vec::Ones()));
-  }
   const bool only_last = powered_.empty() && !system.has_loads();  // no other stage's power is needed
   for (BasicStage<S>& s : stage_) {
     s.a = bodies;

@@ -20,6 +20,7 @@
 #include "integrators/absolute/stage_solver.h"
 #include "integrators/bend_watch.h"
 #include "integrators/open_contacts.h"
+#include "integrators/radau/force_tail.h"
 #include "integrators/radau/motion_scale.h"
 #include "integrators/radau/step_events.h"
 #include "pintle/model.h"
@@ -80,7 +81,6 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   double open_contact_error(double h) const;
   double ringing_behind_event(double h) const;
   double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_m_, stage_[n_ - 1].m); }
-  double friction_tail() const;               // of forces in free directions, which no mass shows
   double motion_tail();                       // as accelerations that the bodies can follow
   void finish_step(double h);                 // fills end_ and nodes_
   void taylor_step(double h);                       // the same by Taylor's series, where forces stay constant
@@ -129,8 +129,8 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   BasicStageTails<S> tails_;
   VecsOf<S> load_change_, loads_then_, before_rebalancing_, rounding_;  // reused storage
   BasicOpenContacts<S> open_contacts_;
+  BasicForceTail<S> force_tail_;
   BasicBendWatch<S> bends_;
-  std::vector<std::pair<int, typename S::Vec>> rubbing_;  // joints with friction but without bristles, and 1 in the components that rub
   std::vector<int> powered_;                  // joints whose power the stages do not sum up
   PositionsOf<S> inside_q_;
   VecsOf<S> inside_v_, inside_gap_, inside_rate_;

@@ -28,7 +28,8 @@ bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(stages_.instant(n_ - 1), mu, last, TreeProjector::Laws::kWhole, find_taut(mu / kProjectionShare))) return false;
-  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error(h), ringing_behind_event(h), bends_.missed_between_samples(begin_.t, h, end_at_.pose().m, stages_.instant(n_ - 1).pose().m, scale_)});
+  const auto force_at = [this](int node, int j) -> S::Vec { return (node == 0 ? begin_ : stages_.states()[node - 1]).force.segment<3>(3 * law_index(j)); };
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), force_tail_.size(table_, scale_, force_at), open_contact_error(h), ringing_behind_event(h), bends_.missed_between_samples(begin_.t, h, end_at_.pose().m, stages_.instant(n_ - 1).pose().m, scale_)});
   return std::isfinite(error);
 }
 

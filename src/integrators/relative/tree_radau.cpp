@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
     : StepEvents(system), system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
-      tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_), open_contacts_(system, tree_->laws()), bends_(system) {
+      tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_), open_contacts_(system, tree_->laws()), force_tail_(system, tree_->laws()), bends_(system) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
   end_at_.set_sliding(sliding_);
   inside_at_.set_sliding(begin_state_.sliding);  // a jump released at the end of a step is still held inside it

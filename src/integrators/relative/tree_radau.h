@@ -9,6 +9,7 @@
 
 #include "integrators/bend_watch.h"
 #include "integrators/open_contacts.h"
+#include "integrators/radau/force_tail.h"
 #include "integrators/radau/step_events.h"
 #include "integrators/relative/tree_projector.h"
 #include "integrators/relative/tree_stages.h"
@@ -98,6 +99,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   TreeProjector projector_;
   TreeInstant end_at_, inside_at_;
   OpenContacts open_contacts_;
+  BasicForceTail<Planar> force_tail_;
   BendWatch bends_;
   TreeState begin_, end_, before_compensation_;
   State begin_state_, end_state_, inside_state_;
