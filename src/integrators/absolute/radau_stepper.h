@@ -20,7 +20,7 @@
 #include "integrators/absolute/stage_solver.h"
 #include "integrators/bend_watch.h"
 #include "integrators/open_contacts.h"
-#include "integrators/radau/force_tail.h"
+#include "integrators/force_tail.h"
 #include "integrators/radau/motion_scale.h"
 #include "integrators/radau/step_events.h"
 #include "pintle/model.h"

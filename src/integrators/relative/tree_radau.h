@@ -9,7 +9,7 @@
 
 #include "integrators/bend_watch.h"
 #include "integrators/open_contacts.h"
-#include "integrators/radau/force_tail.h"
+#include "integrators/force_tail.h"
 #include "integrators/radau/step_events.h"
 #include "integrators/relative/tree_projector.h"
 #include "integrators/relative/tree_stages.h"
