@@ -90,7 +90,8 @@ class StepControl {
   static constexpr int kMostAtFloor = 20;         // very short steps in a row, after which one twice as long is tried
   static constexpr double kShort = 0.9;           // fraction of the distance to an event that is only estimated: the next attempt covers this much
   // Fraction of the distance to an event: a step limited by its error to less than this is a usual one. For the block in LinearContact half of it rejects 2400
-  // steps, twice it 630, this 1100; not a step changes in the worn pins and wheels of the collection. With 1, pins that stick take twice the steps.
+  // steps, twice it 630, this 1100; not a step changes in the worn pins and wheels of the collection. With 1, pins that stick take twice the steps. Also the
+  // distance, as a fraction of the usual step, from which an event is crossed that no step reaches.
   static constexpr double kOnTheWay = 0.01;
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // factor on the step for which the error would equal the tolerance; smallest ratio of two steps; largest ratio; largest ratio after the first step
 
@@ -157,8 +158,8 @@ class StepControl {
 
   bool is_at_start(double after) const { return after < 2 * kEventAtStart * usual; }
   // Whether an event this long after the start of a step is crossed there. A contact may be ten thousand times as short as the flight before it: its end is
-  // crossed there only if forces stay constant until then, or if steps of this length have got no nearer to it: in the steep ramp of a held jump a speed may
-  // be the last number before the ramp's end.
+  // crossed there only if forces stay constant until then. An event that steps of this length have got no nearer to is crossed from farther away: in the steep
+  // ramp of a held jump a speed may be the last number before the ramp's end, and a body at rest moves by less than the rounding of its position.
   template <class Method>
   bool is_crossed_at_start(Method& method, double after) const {
     const bool out_of_reach = unreached_ >= kFewShort && is_same_distance(after, short_step_);
