@@ -10,6 +10,7 @@
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/thresholds.h"
 #include "laws/gap_at_force.h"
+#include "system/size_about_origin.h"
 
 namespace pintle {
 
@@ -47,7 +48,7 @@ double held_above(const BasicSystem<S>& system, double lowest, const VecsOf<S>& 
     load += loads[i].template head<S::kDim>().norm();
     mass += system.bodies[i].mass[0];
   }
-  return held_above(lowest, load / mass, std::max(largest_coordinate(q), system.largest_radius_of_gyration()));
+  return held_above(lowest, load / mass, size_about_origin(system, q));
 }
 
 template <class S>

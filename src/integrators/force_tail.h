@@ -20,8 +20,7 @@ class BasicForceTail {
  public:
   /// Watches those of the joints whose law has no states: friction that may act on next to no mass, in the components that rub; and laws that hold their joint
   /// by more than a spring and a damper, such as those of leaf springs, whose joints may load each other while hardly anything moves.
-  template <class Joints>
-  BasicForceTail(const BasicSystem<S>& system, const Joints& joints) : system_(system) {
+  BasicForceTail(const BasicSystem<S>& system, const std::vector<int>& joints) : system_(system) {
     for (const int j : joints) {
       const BasicLaw<S>& law = system.joints[j].law;
       if (law.n_states() > 0) continue;

@@ -4,16 +4,12 @@
 
 namespace pintle {
 
-namespace {
-
 template <class S>
 std::vector<int> all_joints(const BasicSystem<S>& system) {
   std::vector<int> all(system.joints.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
-
-}  // namespace
 
 template <class S>
 BasicOpenContacts<S>::BasicOpenContacts(const BasicSystem<S>& system) : BasicOpenContacts(system, all_joints(system)) {}
@@ -27,6 +23,8 @@ BasicOpenContacts<S>::BasicOpenContacts(const BasicSystem<S>& system, const std:
   }
 }
 
+template std::vector<int> all_joints(const System& system);
+PINTLE_IN_SPACE(template std::vector<int> all_joints(const BasicSystem<Spatial>& system);)
 template class BasicOpenContacts<Planar>;
 PINTLE_IN_SPACE(template class BasicOpenContacts<Spatial>;)
 

@@ -9,6 +9,9 @@
 
 namespace pintle {
 
+template <class S>
+std::vector<int> all_joints(const BasicSystem<S>& system);
+
 /// The joints of a system that may be apart: contacts, stops, ropes, bearings with play.
 template <class S>
 class BasicOpenContacts {

@@ -18,6 +18,7 @@
 #include "run/pass_decisions.h"
 #include "run/record/joint_events.h"
 #include "run/recording.h"
+#include "system/size_about_origin.h"
 
 namespace pintle {
 namespace {
@@ -370,7 +371,7 @@ class Passes {
     constexpr double kStill = 1e-3;  // fraction of the mechanism's size: bodies that move less are at rest
     if (out_.of_motion || system_.loads.empty() || !coarse_ || out_.outcome != Outcome::kCompleted) return;
     const double apart = share_ * motion_difference(system_, coarse_->forces(), fine_->forces());
-    if (!(apart > kUnseen * settings_.tolerance) || longest_path(system_, fine_->forces()) < kStill * std::max(largest_coordinate(start_.q), system_.largest_radius_of_gyration())) return;
+    if (!(apart > kUnseen * settings_.tolerance) || longest_path(system_, fine_->forces()) < kStill * size_about_origin(system_, start_.q)) return;
     out_.notes.push_back(fmt::format("the joint forces hardly depend on it, but two integrations place the bodies up to {:.1g} of their longest path apart: forces of springs and motors that depend on positions are as uncertain. "
                                      "tolerance_of = \"motion\" controls and states the error of the motion", apart));
   }

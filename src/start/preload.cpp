@@ -13,6 +13,7 @@
 #include "dynamics/inverse_dynamics.h"
 #include "integrators/thresholds.h"
 #include "kinematics/position_search.h"
+#include "system/size_about_origin.h"
 
 namespace pintle {
 namespace {
@@ -160,7 +161,7 @@ double change_of_gaps(const BasicSystem<S>& system, const BasicState<S>& before,
 
 template <class S>
 bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to) {
-  const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
+  const double size = size_about_origin(system, from.q);
   for (std::size_t i = 0; i < from.q.size(); ++i) {
     const typename S::Vec way = S::difference(from.q[i], to.q[i]);
     if (!(way.template head<S::kDim>().norm() <= size && way.template tail<S::kDof - S::kDim>().norm() <= std::numbers::pi)) return true;

@@ -2,23 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "integrators/thresholds.h"
 
 namespace pintle {
-
-namespace {
-
-template <class S>
-std::vector<int> all_joints(const BasicSystem<S>& system) {
-  std::vector<int> all(system.joints.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
-}  // namespace
 
 template <class S>
 BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages, ToleranceOf tolerance_of)

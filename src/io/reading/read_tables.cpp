@@ -15,6 +15,10 @@
 namespace pintle {
 namespace {
 
+// Units such as 1/min of a column: why they are refused, and what to write.
+constexpr const char* kFrequencyUnit = "this unit would count radians, not turns";
+constexpr const char* kSpeedUnits = "\"rpm\", \"rev/s\", \"rad/s\", or \"1/s\" for what is no speed of rotation";
+
 // Why a file name cannot be used, and what to try; "" for both if it can.
 std::pair<std::string, std::string> name_fault(const std::string& name) {
   const std::filesystem::path path(name);
@@ -81,7 +85,7 @@ class TableReader {
     if (!record_.states(key)) return {};
     const std::string text = record_.word(key);
     const auto unit = parse_unit(text);
-    if (unit && is_ambiguous_speed(text, *unit)) complain(key, record_.spot(key), in_quotes(text), kFrequencyUnit, kSpeedUnits);
+    if (unit && is_frequency_unit(text, *unit)) complain(key, record_.spot(key), in_quotes(text), kFrequencyUnit, kSpeedUnits);
     if (!unit) complain(key, record_.spot(key), in_quotes(text), "this is not a unit", reading_.complaints.did_you_mean(text, {unit_symbols().begin(), unit_symbols().end()}));
     return unit;
   }
@@ -137,7 +141,7 @@ class TableReader {
     std::optional<Unit> unit = stated_unit(key.c_str());
     if (!unit && column.unit) {
       unit = parse_unit(*column.unit);
-      if (unit && is_ambiguous_speed(*column.unit, *unit)) complain("file", record_.spot("file"), fmt::format("a column in {}", *column.unit), kFrequencyUnit, key + " = one of " + kSpeedUnits);
+      if (unit && is_frequency_unit(*column.unit, *unit)) complain("file", record_.spot("file"), fmt::format("a column in {}", *column.unit), kFrequencyUnit, key + " = one of " + kSpeedUnits);
     }
     if (!unit) {
       complain(key, record_.spot("file"), "no " + key, "the file does not say in which unit the column is", key + " = \"mm\", or \"\" for a pure number");
@@ -164,7 +168,7 @@ class TableReader {
     }
   }
 
-  static bool is_ambiguous_speed(const std::string& text, const Unit& unit) { return unit.dimension == Dimension{{0, 0, -1, 0}, false} && mentions_frequency(text); }
+  static bool is_frequency_unit(const std::string& text, const Unit& unit) { return unit.dimension == Dimension{{0, 0, -1, 0}, false} && mentions_frequency(text); }
   static std::string unit_of(const Coordinate& one) { return one.dimension.any ? "" : to_unit_text(one.dimension); }
 
   void check_period() {

@@ -107,9 +107,6 @@ class RecordReader {
 /// What to write instead of a frequency.
 /// Whether the text has the unit of a frequency, Hz, kHz or, where it is not the function, min.
 bool mentions_frequency(std::string_view text);
-/// Units such as 1/min in the head of a column: why they are refused, and what to write.
-inline constexpr const char* kFrequencyUnit = "this unit would count radians, not turns";
-inline constexpr const char* kSpeedUnits = "\"rpm\", \"rev/s\", \"rad/s\", or \"1/s\" for what is no speed of rotation";
 inline constexpr const char* kSpeedExample = "\"120 rpm\", \"2 rev/s\" or \"4*pi rad/s\"";
 
 /// Why a key cannot have this number; "" if it can.

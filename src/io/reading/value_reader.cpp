@@ -82,13 +82,20 @@ std::string list_example(const KeySpec& spec) {
   return "[" + text + "]";
 }
 
+// Whether the text contains this word at a place for which counts(position behind it) holds.
+template <class Counts>
+bool has_word(std::string_view text, std::string_view word, const Counts& counts) {
+  const auto in_word = [text](std::size_t at) { return at < text.size() && (is_word_part(text[at]) || text[at] == '.'); };
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const std::size_t behind = at + word.size();
+    if (!in_word(behind) && (at == 0 || !in_word(at - 1)) && counts(behind)) return true;
+  }
+  return false;
+}
+
 // Whether the text contains one of these variables.
 bool mentions(std::string_view text, const std::vector<std::string>& variables) {
-  const auto in_word = [text](std::size_t at) { return at < text.size() && (is_word_part(text[at]) || text[at] == '.'); };
-  for (const std::string& variable : variables)
-    for (std::size_t at = text.find(variable); at != std::string_view::npos; at = text.find(variable, at + 1))
-      if (!in_word(at + variable.size()) && (at == 0 || !in_word(at - 1))) return true;
-  return false;
+  return std::any_of(variables.begin(), variables.end(), [text](const std::string& variable) { return has_word(text, variable, [](std::size_t) { return true; }); });
 }
 bool mentions(const Node& node, const std::vector<std::string>& variables) { return node.string() != nullptr && mentions(*node.string(), variables); }
 
@@ -114,13 +121,11 @@ std::string range_problem(double number, const KeySpec& spec) {
 }
 
 bool mentions_frequency(std::string_view text) {
-  if (mentions(text, {"Hz", "kHz"})) return true;
-  for (std::size_t at = text.find("min"); at != std::string_view::npos; at = text.find("min", at + 1)) {
-    const std::size_t behind = skip_blanks(text, at + 3);
-    const bool whole = (at == 0 || !is_word_part(text[at - 1])) && (at + 3 == text.size() || !is_word_part(text[at + 3]));
-    if (whole && !(behind < text.size() && text[behind] == '(')) return true;
-  }
-  return false;
+  const auto is_unit = [text](std::size_t behind) {
+    const std::size_t next = skip_blanks(text, behind);
+    return next == text.size() || text[next] != '(';
+  };
+  return mentions(text, {"Hz", "kHz"}) || has_word(text, "min", is_unit);
 }
 
 bool RecordReader::is_frequency(std::string_view text) const {

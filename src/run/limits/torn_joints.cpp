@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "system/size_about_origin.h"
 
 namespace pintle {
 namespace {
@@ -24,7 +25,7 @@ double largest_stiffness(const BasicJointData<S>& joint) {
 }  // namespace
 
 template <class S>
-BasicDeflectionScale<S>::BasicDeflectionScale(const BasicSystem<S>& system, const BasicState<S>& start) : size_(std::max(largest_coordinate(start.q), system.largest_radius_of_gyration())) {
+BasicDeflectionScale<S>::BasicDeflectionScale(const BasicSystem<S>& system, const BasicState<S>& start) : size_(size_about_origin(system, start.q)) {
   double weight = 0;
   for (const auto& body : system.bodies) weight += kStandardGravity * body.mass[0];
   for (const BasicJointData<S>& joint : system.joints) {

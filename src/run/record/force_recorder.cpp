@@ -7,6 +7,7 @@
 
 #include "integrators/thresholds.h"
 #include "run/record/creeping_contacts.h"
+#include "system/size_about_origin.h"
 
 namespace pintle {
 
@@ -54,7 +55,7 @@ template <class S>
 void BasicForceRecorder<S>::finish(const BasicStepper<S>& stepper) {
   const BasicState<S>& state = stepper.state();
   for (const typename S::Vec& load : stepper.load_scale().body) forces_.largest_load = std::max(forces_.largest_load, load[0]);
-  forces_.rounding = kLastBits * largest_stiffness(system_) * std::max(largest_coordinate(state.q), system_.largest_radius_of_gyration());
+  forces_.rounding = kLastBits * largest_stiffness(system_) * size_about_origin(system_, state.q);
   forces_.rounding_couple = kLastBits * largest_angular_stiffness(system_) * largest_angle<S>(state.q);
   if (state.t > forces_.t.back()) add(state);
   if (what_ == Recorded::kForces) return;

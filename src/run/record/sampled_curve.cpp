@@ -165,7 +165,10 @@ CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int 
   if constexpr (kind == Sums::kWithSign) {
     sums.integral += h * sum_of(kAll, component);
   } else if constexpr (n == 1) {
-    for_each_sign(grid, samples, stride, component, [&](double from, double to) { sums.integral += h * std::abs(weighted_sum(grid, grid.integral(from, to), samples, stride)); });
+    for_each_sign(grid, samples, stride, component, [&](double from, double to) {
+      const bool whole = from == 0 && to == 1;
+      sums.integral += h * std::abs(whole ? sum_of(kAll, component) : weighted_sum(grid, grid.integral(from, to), samples, stride));
+    });
   } else {
     CurveGrid::AtPoints size;
     for (std::size_t p = 0; p < size.size(); ++p) size[p] = std::sqrt(square[p]);

@@ -46,8 +46,8 @@ const std::vector<double>& BasicWearTally<S>::observe(const Worn& worn, const Ba
 template <class S>
 void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
   for (Worn& worn : worn_) {
-    if (worn.samples.size() <= static_cast<std::size_t>(i)) worn.samples.resize(static_cast<std::size_t>(i) + 1);
     const std::vector<double>& observed = observe(worn, state);
+    if (worn.samples.size() <= static_cast<std::size_t>(i)) worn.samples.resize(static_cast<std::size_t>(i) + 1);
     worn.samples[static_cast<std::size_t>(i)] = {observed[worn.power], observed[worn.angle], observed[worn.angle] - state.gap[static_cast<std::size_t>(worn.joint)][S::kTurn]};
   }
 }
