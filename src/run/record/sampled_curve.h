@@ -22,7 +22,7 @@ class CurveGrid {
   using Weights = std::array<double, kMost>;        // of the samples; those that do not exist have 0
   using AtPoints = std::array<double, kPoints>;
 
-  static constexpr double kFinest = 1e-9;  // least `accuracy`: halved or doubled, the mean force and the bearing load of swinging_roller_bearing change by 1e-10
+  static constexpr double kFinest = 1e-9;  // least `accuracy`, far above the rounding of the sums, below which no halving would make two rules agree. With half or twice as much, means change by 4e-9 at most
   /// n samples, from 2 to kMost, at the extrema of the Chebyshev polynomial of degree n - 1; polynomials of that degree are reproduced exactly.
   /// `accuracy`: of integrals of magnitudes, as a fraction of them.
   explicit CurveGrid(int n, double accuracy = kFinest);
