@@ -93,6 +93,23 @@ struct CheckFrequencies {
   std::string remark;
 };
 
+/// A small motion about the position of rest, exp(lambda t), with all forces: joints, springs, motors, loads and the turning of forces with the bodies.
+struct CheckSmallMotion {
+  double real = 0, imaginary = 0;  ///< lambda [1/s] and [rad/s], imaginary >= 0: of two conjugate ones
+  double frequency = 0;            ///< |lambda| [rad/s]
+  double damping_ratio = 0;        ///< -real / |lambda| [-]; negative: it grows
+  std::string body, direction;     ///< the coordinate with most of its kinetic energy: x, y or angle
+  double share = 0;                ///< of that coordinate in the kinetic energy [-]
+};
+
+struct CheckSmallMotions {
+  bool known = false;                   ///< the linear analysis was possible; otherwise `remark` says why not
+  std::vector<CheckSmallMotion> modes;  ///< slowest first
+  double resolved = 0;                  ///< motions slower than this are not told from free ones [rad/s]
+  int n_free = 0;                       ///< such motions: nothing drives them back, or away
+  std::string remark;
+};
+
 /// One comparison, made at the assembled state and a few others, for every joint, law and load it applies to.
 struct CheckItem {
   std::string what;
@@ -120,6 +137,7 @@ struct CheckReport {
   std::string transmission_of;  ///< "joint.coordinate" that the ratios refer to
   std::vector<CheckTransmission> transmission;
   CheckFrequencies frequencies;
+  CheckSmallMotions small_motions;
   CheckBattery jacobians, energy;
   std::vector<std::string> notes;  ///< what assembly assumed, and what the user should know
   bool passed() const { return jacobians.passed() && energy.passed(); }

@@ -4,6 +4,7 @@
 #include "check/check_batteries.h"
 #include "check/check_frequencies.h"
 #include "check/check_gears.h"
+#include "check/check_small_motions.h"
 #include "check/check_topology.h"
 #include "mobility/mobility.h"
 #include "pintle/check.h"
@@ -88,6 +89,7 @@ CheckReport check_model(const Model& model) {
     report.transmission = std::move(train.ratios);
   }
   report.frequencies = check_frequencies(loaded.system, loaded.state, report.mobility.mobility_driven);
+  report.small_motions = check_small_motions(loaded.system, loaded.state);
   const auto states = check_states(model, loaded.system, loaded.state);
   const double duration = model.simulate.duration > 0 ? model.simulate.duration : 1;
   report.jacobians = jacobian_battery(loaded.system, loaded.state, states, duration);

@@ -17,4 +17,9 @@ template <class S>
 double unresolved_ringing(const BasicSystem<S>& system, int j, const BasicLawPoint<S>& at, const BasicJointKinematics<S>& r, const typename S::Vec& last, double h, int n,
                           const BasicLoadScale<S>& scale);
 
+/// What the same curve misses of the motion: the integral of its error `rate` over the step, over the path that the scale of the motion, (3.15), allows for. theory/time Eq. (3.26).
+template <class S>
+double unresolved_motion(const BasicSystem<S>& system, int j, const BasicLawPoint<S>& at, const BasicJointKinematics<S>& r, const typename S::Vec& last, double h, int n,
+                         const BasicLoadScale<S>& scale);
+
 }  // namespace pintle

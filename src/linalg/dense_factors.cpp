@@ -33,4 +33,12 @@ bool SymmetricEigen::compute(const Eigen::MatrixXd& matrix) {
   return solver_.info() == Eigen::Success;
 }
 
+bool GeneralEigen::compute(const Eigen::MatrixXd& matrix) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  if (solver.info() != Eigen::Success) return false;
+  values_ = solver.eigenvalues();
+  vectors_ = solver.eigenvectors();
+  return true;
+}
+
 }  // namespace pintle

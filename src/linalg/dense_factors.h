@@ -57,4 +57,17 @@ class SymmetricEigen {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver_;
 };
 
+/// Eigenvalues of a real square matrix, in no order, and the eigenvectors as columns.
+class GeneralEigen {
+ public:
+  /// Returns false if the iteration did not converge.
+  bool compute(const Eigen::MatrixXd& matrix);
+  const Eigen::VectorXcd& eigenvalues() const { return values_; }
+  const Eigen::MatrixXcd& eigenvectors() const { return vectors_; }
+
+ private:
+  Eigen::VectorXcd values_;
+  Eigen::MatrixXcd vectors_;
+};
+
 }  // namespace pintle

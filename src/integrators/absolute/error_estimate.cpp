@@ -17,7 +17,7 @@ bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
   const auto force_at = [this](int node, int j) -> const typename S::Vec& { return node == 0 ? begin_.force[j] : stage_[node - 1].force[j]; };
-  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), force_tail_.size(table_, scale_, force_at), open_contact_error(h), ringing_behind_event(h),
+  error = of_motion_ ? std::max(motion_tail(), missed_behind_event(h)) : std::max({end_point_->error(tails_, scale_), change_of_loads(h), force_tail_.size(table_, scale_, force_at), open_contact_error(h), missed_behind_event(h),
                                                      bends_.missed_between_samples(begin_.t, h, end_m_, stage_[n_ - 1].m, scale_)});
   return std::isfinite(error);
 }
@@ -55,9 +55,9 @@ double BasicRadauStepper<S>::open_contact_error(double h) const {
                               largest_coordinate(last.q), scale_);
 }
 
-// theory/time Eq. (3.24). In a smooth motion it is next to zero.
+// theory/time Eqs. (3.24), (3.26). In a smooth motion it is next to zero.
 template <class S>
-double BasicRadauStepper<S>::ringing_behind_event(double h) const {
+double BasicRadauStepper<S>::missed_behind_event(double h) const {
   if (!control_.behind_event) return 0;
   const BasicStage<S>& last = stage_[n_ - 1];
   const double t = begin_.t + h;
@@ -66,7 +66,8 @@ double BasicRadauStepper<S>::ringing_behind_event(double h) const {
     typename S::Vec last_coefficient = S::Vec::Zero();
     for (int s = 0; s < n_; ++s) last_coefficient += table_.stages_to_legendre(n_ - 1, s) * stage_[s].gap_accel[j];
     const BasicLawPoint<S> at{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state};
-    largest = std::max(largest, unresolved_ringing(system_, j, at, system_.kinematics(j, t, last.m), last_coefficient, h, n_, scale_));
+    const BasicJointKinematics<S> r = system_.kinematics(j, t, last.m);
+    largest = std::max(largest, of_motion_ ? unresolved_motion(system_, j, at, r, last_coefficient, h, n_, motion_scale_.loads()) : unresolved_ringing(system_, j, at, r, last_coefficient, h, n_, scale_));
   }
   return largest;
 }
@@ -206,7 +207,7 @@ void BasicRadauStepper<S>::find_power() {
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
 template double BasicRadauStepper<Planar>::open_contact_error(double h) const;
-template double BasicRadauStepper<Planar>::ringing_behind_event(double h) const;
+template double BasicRadauStepper<Planar>::missed_behind_event(double h) const;
 template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
@@ -219,7 +220,7 @@ template void BasicRadauStepper<Planar>::find_power();
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::open_contact_error(double h) const;)
-PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::ringing_behind_event(double h) const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::missed_behind_event(double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::finish_step(double h);)

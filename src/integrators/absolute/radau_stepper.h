@@ -79,7 +79,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   bool error_estimate(double h, double& error);
   double change_of_loads(double h);           // as the bodies are moved onto their gaps
   double open_contact_error(double h) const;
-  double ringing_behind_event(double h) const;
+  double missed_behind_event(double h) const;
   double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_m_, stage_[n_ - 1].m); }
   double motion_tail();                       // as accelerations that the bodies can follow
   void finish_step(double h);                 // fills end_ and nodes_

@@ -25,7 +25,7 @@ AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, do
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
       newton_tolerance_(ideal_joints && ideal_joints->projects() ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), constraints_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
       begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
-      F_(begin_.q), work_(system.bodies.size()) {
+      F_(begin_.q), work_(system.bodies.size()), forced_(tolerance) {
   before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
 }
 
@@ -182,7 +182,7 @@ bool AlphaStepper::step(double t_end) {
       continue;
     }
     const double e = error(h);
-    const bool forced = constraints_ && forced_.must_take(e, h);
+    const bool forced = forced_.must_take(e, h) && constraints_;
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1 || forced) {
       const bool found = set_end_state(end_of_step(begin_.t, h, t_end), h);

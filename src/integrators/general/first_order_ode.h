@@ -36,6 +36,9 @@ class FirstOrderOde {
   struct Coupling {
     int row, place;
   };
+  /// Calls put(row, column, block) for every block of the Jacobian of (q, v, z) at the last `linearize`, except that q' = v.
+  template <class Put>
+  void for_each_block(Put&& put) const;
   /// All bodies that depend on the coordinates of body `column`, in the order of rows.
   const std::vector<Coupling>& couplings(int column) const { return couplings_[column]; }
   Planar::Mat by_position(const Coupling& c) const { return inverse_mass(c.row) * tangents_.by_position(c.place); }
@@ -57,5 +60,29 @@ class FirstOrderOde {
   int n_roots_ = 0;
   std::vector<std::vector<Coupling>> couplings_;  // by columns
 };
+
+template <class Put>
+void FirstOrderOde::for_each_block(Put&& put) const {
+  const int half = motion_size() / 2;
+  for (int j = 0; j < system_.n_bodies(); ++j)
+    for (const Coupling& at : couplings(j)) {
+      put(half + 3 * at.row, 3 * j, by_position(at));
+      put(half + 3 * at.row, half + 3 * j, by_velocity(at));
+    }
+  for (const ForceTangents::StateTangents& of : states()) {
+    const JointData& joint = system_.joints[of.joint];
+    const int first = 2 * half + joint.first_state;
+    for (int side = 0; side < 2; ++side) {
+      const int body = side == 0 ? joint.at.a : joint.at.b;
+      if (body == kGround) continue;
+      put(half + 3 * body, first, accelerations_by_state(of, side));
+      for (const bool velocities : {false, true}) put(first, (velocities ? half : 0) + 3 * body, rates_by_motion(of, side, velocities));
+    }
+    Eigen::MatrixXd by_state(of.law.n, of.law.n);
+    for (int r = 0; r < of.law.n; ++r)
+      for (int c = 0; c < of.law.n; ++c) by_state(r, c) = of.law.by_state[r][c];
+    put(first, first, by_state);
+  }
+}
 
 }  // namespace pintle

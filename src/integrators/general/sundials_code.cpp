@@ -41,31 +41,10 @@ void fill_dense(const FirstOrderOde& e, SUNMatrix J) {
   const int half = e.motion_size() / 2;
   SUNMatZero(J);
   for (int k = 0; k < half; ++k) SM_ELEMENT_D(J, k, half + k) = 1;
-  for (int j = 0; j < e.system().n_bodies(); ++j)
-    for (const FirstOrderOde::Coupling& at : e.couplings(j)) {
-      const Planar::Mat by_q = e.by_position(at), by_v = e.by_velocity(at);
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) {
-          SM_ELEMENT_D(J, half + 3 * at.row + r, 3 * j + c) = by_q(r, c);
-          SM_ELEMENT_D(J, half + 3 * at.row + r, half + 3 * j + c) = by_v(r, c);
-        }
-    }
-  const auto put = [J](int row, int column, const Eigen::MatrixXd& block) {
+  e.for_each_block([J](int row, int column, const auto& block) {
     for (Eigen::Index r = 0; r < block.rows(); ++r)
       for (Eigen::Index c = 0; c < block.cols(); ++c) SM_ELEMENT_D(J, row + r, column + c) = block(r, c);
-  };
-  for (const ForceTangents::StateTangents& of : e.states()) {
-    const JointData& joint = e.system().joints[of.joint];
-    const int first = 2 * half + joint.first_state;
-    for (int side = 0; side < 2; ++side) {
-      const int body = side == 0 ? joint.at.a : joint.at.b;
-      if (body == kGround) continue;
-      put(half + 3 * body, first, e.accelerations_by_state(of, side));
-      for (const bool velocities : {false, true}) put(first, (velocities ? half : 0) + 3 * body, FirstOrderOde::rates_by_motion(of, side, velocities));
-    }
-    for (int r = 0; r < of.law.n; ++r)
-      for (int c = 0; c < of.law.n; ++c) SM_ELEMENT_D(J, first + r, first + c) = of.law.by_state[r][c];
-  }
+  });
 }
 
 // Writes by columns, always with the diagonal, so that I - gamma J needs no other pattern.

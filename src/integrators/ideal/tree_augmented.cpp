@@ -27,7 +27,7 @@ double largest_of(const Eigen::VectorXd& x) { return std::max(1e-3, x.size() > 0
 }  // namespace
 
 TreeAugmented::TreeAugmented(const System& system, const AlphaWeights& weights, double tolerance)
-    : system_(system), weights_(weights), tolerance_(tolerance), tree_(std::make_unique<JointTree>(system)), at_(system, *tree_) {
+    : system_(system), weights_(weights), tolerance_(tolerance), tree_(std::make_unique<JointTree>(system)), at_(system, *tree_), forced_(tolerance) {
   for (int l = 0; l < static_cast<int>(tree_->laws().size()); ++l)
     for (int k = 0; k < S::kDof; ++k)
       if (is_constrained(system.joints[tree_->laws()[l]], k)) rows_.push_back({l, k});
@@ -230,7 +230,7 @@ bool TreeAugmented::step(double t_end) {
     const bool solved = solve(h);
     const double e = solved ? error(h) : 0;
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
-    const bool forced = forced_.must_take(e, h);
+    const bool forced = solved && forced_.must_take(e, h);
     if (solved && (e <= 1 || forced)) {
       finish(end_of_step(begin_.t, h, t_end), h);
       if (!forced) forced_.record_step(h);

@@ -93,6 +93,15 @@ Json frequencies(const CheckFrequencies& f) {
           {"remark", f.remark}};
 }
 
+Json small_motion(const CheckSmallMotion& m) {
+  return {{"real", m.real}, {"imaginary", m.imaginary}, {"frequency", m.frequency}, {"damping_ratio", m.damping_ratio},
+          {"body", m.body}, {"direction", m.direction}, {"share", m.share}};
+}
+
+Json small_motions(const CheckSmallMotions& s) {
+  return {{"known", s.known}, {"modes", array(s.modes, small_motion)}, {"resolved", s.resolved}, {"free", s.n_free}, {"remark", s.remark}};
+}
+
 }  // namespace
 
 std::string check_json(const CheckReport& report, const std::string& model_name, const std::string& model_path) {
@@ -111,6 +120,7 @@ std::string check_json(const CheckReport& report, const std::string& model_name,
   json["gears"] = array(report.gears, gear);
   json["transmission"] = {{"of", report.transmission_of}, {"ratios", array(report.transmission, transmission)}};
   json["frequencies"] = frequencies(report.frequencies);
+  json["small_motions"] = small_motions(report.small_motions);
   json["jacobian_battery"] = battery(report.jacobians);
   json["energy_battery"] = battery(report.energy);
   json["notes"] = report.notes;

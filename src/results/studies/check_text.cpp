@@ -12,7 +12,7 @@ namespace {
 
 using Align = TextTable::Align;
 
-constexpr std::size_t kMaxLoops = 12, kMaxNames = 12, kMaxGroups = 8, kMaxComponents = 24;
+constexpr std::size_t kMaxLoops = 12, kMaxNames = 12, kMaxGroups = 8, kMaxComponents = 24, kMaxSmallMotions = 6;
 
 struct Look {
   bool details;
@@ -161,6 +161,35 @@ std::string mode_section(const CheckFrequencies& f, const Look& look) {
   return text;
 }
 
+// Motions that grow, and the slowest of the others.
+std::string small_motion_section(const CheckSmallMotions& s, const Look& look) {
+  std::string text = fmt::format("\n{}Small motions about the position of rest{}", look.bold, look.plain);
+  if (!s.known) return s.remark.empty() ? "" : text + fmt::format(": {}\n", s.remark);
+  TextTable table;
+  for (const char* head : {"motion", "body", "direction"}) table.add_column(head, Align::kLeft);
+  table.add_column("energy share", Align::kNumber, "%");
+  table.add_column("frequency", Align::kNumber, "rad/s");
+  table.add_column("", Align::kNumber, "Hz");
+  table.add_column("damping ratio", Align::kNumber, "-");
+  table.add_column("time constant", Align::kNumber, "s");
+  std::size_t shown = 0;
+  bool grows = false;
+  for (const CheckSmallMotion& m : s.modes) {
+    const bool growing = m.real > s.resolved;
+    grows = grows || growing;
+    if (!look.details && !growing && shown >= kMaxSmallMotions) continue;
+    ++shown;
+    table.add_row({growing ? "grows" : m.imaginary > 0 ? "vibrates" : "decays", m.body, m.direction, engineering(100 * m.share), m.imaginary > 0 ? engineering(m.frequency) : "",
+                   m.imaginary > 0 ? hertz(m.frequency) : "", m.imaginary > 0 ? engineering(m.damping_ratio) : "", std::abs(m.real) > s.resolved ? engineering(1 / std::abs(m.real)) : ""});
+  }
+  text += " (with all forces, and the coordinate that moves most)\n";
+  if (!table.empty()) text += table.text(look.bold, look.plain);
+  text += more(s.modes.size(), shown, "faster ones");
+  if (s.n_free > 0) text += fmt::format("  {} free, or slower than {} rad/s\n", counted(s.n_free, "motion is", "motions are"), engineering(s.resolved));
+  if (grows) text += fmt::format("  {}The position is unstable{}: a disturbance grows by a factor of e in the time constant.\n", look.warn, look.plain);
+  return text;
+}
+
 std::string component_section(const CheckFrequencies& f, const Look& look) {
   if (f.components.empty()) return "";
   TextTable table = frequency_table("type");
@@ -209,6 +238,7 @@ std::string check_text(const CheckReport& report, const std::string& title, bool
   text += redundancy_section(report, look);
   text += loop_section(report.topology, look);
   text += gear_section(report, look);
+  text += small_motion_section(report.small_motions, look);
   text += mode_section(report.frequencies, look);
   text += component_section(report.frequencies, look);
   text += battery_section("Jacobians against finite differences", report.jacobians, look);

@@ -1,0 +1,80 @@
+#include "check/check_small_motions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "integrators/general/first_order_ode.h"
+#include "linalg/dense_factors.h"
+#include "start/settle_joints.h"
+
+namespace pintle {
+namespace {
+
+constexpr int kMostUnknowns = 400;  // positions, velocities and states of laws: about a second
+constexpr double kResolved = 1e-7;  // of the fastest motion: what rounding makes of a free motion, whose eigenvalue 0 is a double one
+
+// The Jacobian of (M^1/2 q, M^1/2 v / w, z), with w the fastest undamped frequency of a body alone: its rows and columns are of one size.
+Eigen::MatrixXd scaled_jacobian(const System& system, const State& at) {
+  FirstOrderOde ode(system, FirstOrderOde::Energies::kLeftOut);
+  std::vector<double> y(static_cast<std::size_t>(ode.size()));
+  ode.flatten(at, y.data());
+  ode.linearize(at.t, y.data());
+  const int half = ode.motion_size() / 2;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(ode.size(), ode.size());
+  A.block(0, half, half, half).setIdentity();
+  ode.for_each_block([&A](int row, int column, const auto& block) { A.block(row, column, block.rows(), block.cols()) = block; });
+  const double w = std::sqrt(std::max(A.block(half, 0, half, half).diagonal().cwiseAbs().maxCoeff(), 1.0));
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(ode.size());
+  for (int i = 0; i < system.n_bodies(); ++i) {
+    scale.segment<3>(3 * i) = system.bodies[i].mass.cwiseSqrt();
+    scale.segment<3>(half + 3 * i) = scale.segment<3>(3 * i) / w;
+  }
+  return scale.asDiagonal() * A * scale.cwiseInverse().asDiagonal();
+}
+
+CheckSmallMotion small_motion(const System& system, std::complex<double> lambda, const Eigen::VectorXcd& shape) {
+  CheckSmallMotion out;
+  out.real = lambda.real();
+  out.imaginary = lambda.imag();
+  out.frequency = std::abs(lambda);
+  out.damping_ratio = -out.real / out.frequency;
+  const Eigen::VectorXd moving = shape.head(3 * system.n_bodies()).cwiseAbs2();
+  Eigen::Index most = 0;
+  const double largest = moving.maxCoeff(&most), all = moving.sum();
+  out.body = system.bodies[static_cast<std::size_t>(most / 3)].name;
+  out.direction = most % 3 == 0 ? "x" : most % 3 == 1 ? "y" : "angle";
+  out.share = all > 0 ? largest / all : 0;
+  return out;
+}
+
+std::string why_not(const System& system, const State& start) {
+  if (std::any_of(system.joints.begin(), system.joints.end(), [](const JointData& joint) { return joint.ideal; })) return "they are known for joints that are force laws, not for ideal ones";
+  if (6 * system.n_bodies() + system.n_law_states() > kMostUnknowns) return fmt::format("not searched for in a mechanism with more than {} positions, velocities and states", kMostUnknowns);
+  if (!is_at_rest(system, start)) return "the mechanism does not rest at its start; with start = \"settled\" it is examined where it comes to rest";
+  return "";
+}
+
+}  // namespace
+
+CheckSmallMotions check_small_motions(const System& system, const State& start) {
+  CheckSmallMotions out;
+  out.remark = why_not(system, start);
+  GeneralEigen eigen;
+  if (!out.remark.empty() || !eigen.compute(scaled_jacobian(system, start))) return out;
+  out.known = true;
+  out.resolved = kResolved * eigen.eigenvalues().cwiseAbs().maxCoeff();
+  int n_slow = 0;
+  for (Eigen::Index i = 0; i < eigen.eigenvalues().size(); ++i) {
+    const std::complex<double> lambda = eigen.eigenvalues()[i];
+    if (!(std::abs(lambda) > out.resolved)) ++n_slow;
+    else if (!(lambda.imag() < 0)) out.modes.push_back(small_motion(system, lambda, eigen.eigenvectors().col(i)));
+  }
+  out.n_free = (n_slow + 1) / 2;
+  std::stable_sort(out.modes.begin(), out.modes.end(), [](const CheckSmallMotion& a, const CheckSmallMotion& b) { return a.frequency < b.frequency; });
+  return out;
+}
+
+}  // namespace pintle
