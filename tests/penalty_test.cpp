@@ -72,6 +72,17 @@ TEST(SlowPublishedPenalty, NFourBarKeepsItsBranch) {
   }
 }
 
+// The methods end a step at the jump, at 0.4003 s, which lies beside the grid of what they look at beforehand. All passes made the same error there.
+TEST(PenaltyRuns, JumpsOfLoadsAreNotSteppedOver) {
+  const Trajectory ideal = simulate(reference::test_model("torque_that_jumps", {"simulate.equations=\"ideal\""}));
+  ASSERT_EQ(ideal.outcome, Outcome::kCompleted) << ideal.message;
+  for (const Way& way : kWays) {
+    const Trajectory run = simulate(reference::test_model("torque_that_jumps", by(way, {"simulate.tolerance=1e-4"})));
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << way.method << run.message;
+    EXPECT_NEAR(run.joints[0].peak, ideal.joints[0].peak, 1e-4 * ideal.joints[0].peak) << way.equations << way.method;
+  }
+}
+
 // A uniform rod along u that has fallen from the horizontal carries 5/2 of the part of its weight along u, and 1/4 of the part across.
 TEST(PenaltyRuns, PendulumHasTheReactionsOfTheClosedForm) {
   for (const Way& way : kWays) {

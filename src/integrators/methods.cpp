@@ -59,6 +59,10 @@ class BodyStepper final : public BasicStepper<S> {
     if constexpr (requires { method_.sliding_load(); }) return method_.sliding_load();
     else return -1;
   }
+  double largest_step_error() const override {
+    if constexpr (requires { method_.largest_step_error(); }) return method_.largest_step_error();
+    else return 1;
+  }
   bool watches_bends() const override { return std::is_same_v<Method, BasicRadauStepper<S>>; }
   const Counters& counters() const override { return method_.counters(); }
   const std::string& failure() const override { return method_.failure(); }

@@ -52,6 +52,8 @@ class BasicStepper {
   virtual std::vector<std::string> remarks() const { return {}; }
   /// The first load in a sliding mode, held where its expression jumps; negative: there was none. The lag of its ramp need not shrink with the tolerance.
   virtual int sliding_load() const { return -1; }
+  /// The largest estimated error of the steps taken, in units of the tolerance [-]; 1 if the method keeps no account of it.
+  virtual double largest_step_error() const { return 1; }
   /// The time at which reactions without a bound first occurred, as those of ideal joints may have at singular positions [s]; negative: never.
   virtual double unbounded_reactions() const { return -1; }
 };

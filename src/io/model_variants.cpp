@@ -34,6 +34,18 @@ void put_in(std::vector<Thing>& all, const std::vector<std::size_t>& places, std
   for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = std::move(changed[k]);
 }
 
+// What turns a number into a quantity of this unit, in an expression: " N/m", or "/(1 s)" for 1/s.
+std::string as_factor(const std::string& unit) {
+  if (unit.empty() || !unit.starts_with("1/")) return unit.empty() ? unit : " " + unit;
+  std::string factor;
+  for (std::size_t slash = 1; slash < unit.size();) {
+    const std::size_t next = std::min(unit.find('/', slash + 1), unit.size());
+    factor += "/(1 " + unit.substr(slash + 1, next - slash - 1) + ")";
+    slash = next;
+  }
+  return factor;
+}
+
 // Placeholder for a varied number until it has a value: it occurs in no file, and `depends` finds it.
 constexpr const char* kVaried = "\x01";
 
@@ -50,7 +62,7 @@ ModelVariants::ModelVariants(const Document& document, const std::vector<std::st
   for (const std::string& path : paths) {
     paths_.push_back(keys_of(path));
     const auto parameter = paths_.back()[0] == "parameters" ? varied_key(whole, path, {}) : std::nullopt;
-    units_.push_back(parameter && !parameter->unit.empty() ? " " + parameter->unit : "");
+    units_.push_back(parameter ? as_factor(parameter->unit) : "");
     node_at(changing_.root, paths_.back()).value = std::string(kVaried);
     if (paths_.back()[0] == "parameters") parameters_.insert(paths_.back()[1]);
   }

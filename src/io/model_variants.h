@@ -34,7 +34,7 @@ class ModelVariants {
   bool depends(const Node& node) const;
 
   std::vector<std::vector<std::string>> paths_;
-  std::vector<std::string> units_;    // of varied parameters, with a blank: a constant without its dimension would not fit where it is used
+  std::vector<std::string> units_;    // of varied parameters, as they follow a number: a constant without its dimension would not fit where it is used
   std::set<std::string> parameters_;  // those that change, and tables
   Document changing_;                 // the file without what stays the same
   Model base_;

@@ -163,5 +163,37 @@ inertia = "0.1*m*(1 m)^2"
   }
 }
 
+TEST(ModelVariants, ParametersMayBeInverseUnits) {
+  const std::string text = R"T(format = 1
+[parameters]
+f = "10 Hz"
+r = "3/(1 m)/(1 s)"
+[body.a]
+mass = "(1 kg)*(f*(1 s))*(r*(1 m)*(1 s))"
+inertia = "1 kg*m^2"
+)T";
+  ModelVariants variants(parse_document(text, "f.toml"), {"parameters.f", "parameters.r"});
+  for (const double value : {12.0, 0.1}) EXPECT_NEAR(variants.at(std::vector{value, 2.0}).bodies[0].mass, 2 * value, 1e-15 * value);
+}
+
+// Bodies that do not change are not read again, but expressions may read where they are.
+TEST(ModelVariants, ExpressionsReadBodiesThatStay) {
+  const std::string text = R"T(format = 1
+[parameters]
+W = "20 N"
+[body.a]
+mass = "1 kg"
+inertia = "1 kg*m^2"
+markers.tip = [1, 0]
+[force.push]
+on = "a.tip"
+force = ["-W*a.vx/(1 m/s)", "W*a.tip.y/(1 m)"]
+)T";
+  ModelVariants variants(parse_document(text, "b.toml"), {"parameters.W"});
+  const Model read = variants.at(std::vector{30.0});
+  ASSERT_EQ(read.forces.size(), 1u);
+  EXPECT_EQ(read.bodies.size(), 1u);
+}
+
 }  // namespace
 }  // namespace pintle

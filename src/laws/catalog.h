@@ -60,6 +60,7 @@ struct LawInfo {
   std::span<const KeyInfo> keys;
   LawRole role = LawRole::kHolds;
   bool stiffens = false;                        // `pintle stiffen` may raise its key stiffness
+  bool yields = false;                          // flexible on purpose: it remains a force law where other linear joints are ideal
   bool rubs = false;                            // it has its own friction and allows no other
   std::span<const std::string_view> joints{};   // joint types for which it is suitable; empty: all
   void (*make)(const LawSetting& setting, Law& law) = nullptr;  // adds the law to `law`

@@ -202,7 +202,8 @@ class LawPartOf final : public BasicLawPart<S> {
     else return 0;
   }
   bool starts_free() const override {
-    if constexpr (requires { P::kStartsFree; }) return P::kStartsFree;
+    if constexpr (requires { law_.starts_free(); }) return law_.starts_free();
+    else if constexpr (requires { P::kStartsFree; }) return P::kStartsFree;
     else return false;
   }
   Vec engaged_stiffness() const override {

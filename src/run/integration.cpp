@@ -141,6 +141,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   out.crossings = stepper.crossings();
   out.remarks = stepper.remarks();
   out.sliding_load = stepper.sliding_load();
+  out.largest_step_error = stepper.largest_step_error();
   out.unbounded_reactions = stepper.unbounded_reactions();
   return out;
 }

@@ -39,6 +39,7 @@ struct BasicIntegration {
   std::vector<LawCrossing> crossings;  // of the borders of laws
   std::vector<std::string> remarks;  // of the method, for the notes
   int sliding_load = -1;                // Stepper::sliding_load
+  double largest_step_error = 1;        // Stepper::largest_step_error
   double unbounded_reactions = -1;   // Stepper::unbounded_reactions
 };
 using Integration = BasicIntegration<Planar>;

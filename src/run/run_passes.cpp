@@ -341,8 +341,8 @@ class Passes {
   }
 
   // Relative to a joint's peak force. All passes share some errors, such as those of the vibration after friction reverses. Their difference does not
-  // show these errors, but they are within the tolerance of the steps.
-  double least_error() const { return out_.of_motion ? 0 : kSurest * fine_tolerance_; }
+  // show these errors, but the estimates of the steps do.
+  double least_error() const { return out_.of_motion ? 0 : fine_tolerance_ * std::min(kSurest, last_.largest_step_error); }
 
   void finish() {
     fine_->fill(out_);

@@ -242,7 +242,7 @@ std::string what_to_try(Model model, const System& system, const Vecs& q, const 
     Vecs trial = q;
     PositionSearch(model, system, open).run(trial);
     if (all_closed(misfits(system, trial), open, mechanism_size(system, q))) {
-      return fmt::format("Without the held coordinates ({}) everything closes: try {}", fmt::join(held, ", "), only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
+      return fmt::format("Without the held coordinates ({}) everything closes: try {}", fmt::join(held, ", "), only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold; or start = \"raw\", if a joint is meant to start deflected.");
     }
   }
   if (const std::string loose = names_of_joints_in_play(system); !loose.empty()) return "Assembly puts joints in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
@@ -287,7 +287,7 @@ void demand_closed(const Model& model, const System& system, Vecs& q, const std:
   if (broken.empty() && of_joints && close_beside_holds(model, system, open, q, notes)) return;
   for (const std::size_t j : misfitting)
     notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0], left[j][1],
-                                system.joints[j].servo < 0 ? "it preloads the joint"
+                                system.joints[j].servo < 0 ? has_constraints(model.simulate.equations) ? "constraints leave it open" : "it preloads the joint"
                                                            : "the motor's target at t = 0 differs by that much from where its joint is held, or from where its loop closes. The start lets bodies move until all forces balance, so a held angle starts near the motor's target"));
   if (broken.empty()) return;
   std::string list;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <utility>
 
+#include "laws/catalog.h"
 #include "mobility/mobility.h"
 #include "mobility/rank.h"
 
@@ -45,8 +47,11 @@ std::vector<int> dependent_rows(const System& system, const std::vector<Constrai
 
 }  // namespace
 
-System make_ideal(System system) {
-  for (JointData& joint : system.joints) joint.ideal = joint.constrained = joint.law.ideal_limit() && !joint.law.feeds();
+System make_ideal(const Model& model, System system) {
+  std::set<std::string> flexible;
+  for (const Joint& joint : model.joints)
+    if (const LawInfo* law = find_law(joint.law.word); law != nullptr && law->yields) flexible.insert(joint.name);
+  for (JointData& joint : system.joints) joint.ideal = joint.constrained = joint.law.ideal_limit() && !joint.law.feeds() && !(joint.servo < 0 && flexible.contains(joint.name));
   return system;
 }
 
@@ -74,6 +79,8 @@ IdealRows choose_ideal_rows(System system, const Vecs& q) {
   const auto is_ideal = [&system](const std::string& name) {
     return std::any_of(system.joints.begin(), system.joints.end(), [&name](const JointData& joint) { return joint.ideal && joint.name == name; });
   };
+  if (mobility.counts.singular_position())
+    out.notes.push_back("the start is a singular position: the constraints do not determine all reactions there, and those of t = 0, which may be the peaks, are one choice of many. Start beside it, or use equations = \"newtonian\"");
   name_undetermined_reactions(mobility.redundancies, is_ideal, "ideal joints", out.notes, out.not_unique);
   out.system = std::move(system);
   return out;

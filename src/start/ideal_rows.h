@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mobility/mobility.h"
+#include "pintle/model.h"
 #include "system/system.h"
 
 namespace pintle {
@@ -16,8 +17,8 @@ struct IdealRows {
   std::vector<std::string> not_unique;  // joints whose reactions the ideal equations do not determine
 };
 
-/// `system` with every joint that has a linear law, and every servo, marked as ideal.
-[[nodiscard]] System make_ideal(System system);
+/// `system`, built from `model`, with every joint that has a linear law, and every servo, marked as ideal; except laws that are flexible on purpose (LawInfo::yields).
+[[nodiscard]] System make_ideal(const Model& model, System system);
 
 /// Notes the groups of redundant constraints that have a joint for which `is_ideal` holds, and collects the joints whose reactions they leave undetermined. `what` are the
 /// joints without compliance, in words.

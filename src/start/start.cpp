@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "mobility/constraint_rows.h"
 #include "mobility/mobility.h"
 #include "pintle/simulate.h"
 #include "start/assembly_notes.h"
@@ -33,15 +34,38 @@ void demand_no_states(const System& system) {
 }
 
 // Ideal joints carry no preload: their loops are closed exactly. Joints that stay force laws begin with the deflections that carry their loads.
+// What constraints cannot close, compliant joints would be preloaded by.
+void note_open_constraints(const Model& model, const Assembly& assembly, std::vector<std::string>& notes) {
+  constexpr double kOpen = 1e-9;  // as a fraction of the mechanism's size: less is rounding
+  const double negligible = kOpen * mechanism_size(assembly.system, assembly.state.q);
+  const std::vector<JointKinematics> r = kinematics_at_rest(assembly.system, assembly.state.q);
+  std::vector<int> open;
+  double widest = 0;
+  for (int j = 0; j < assembly.system.n_joints(); ++j) {
+    const JointData& joint = assembly.system.joints[j];
+    if (!joint.ideal || joint.servo >= 0) continue;
+    const double gap = std::hypot(joint.held[0] ? r[j].gap[0] : 0, joint.held[1] ? r[j].gap[1] : 0);
+    if (!(gap > negligible)) continue;
+    open.push_back(j);
+    widest = std::max(widest, gap);
+  }
+  if (open.empty()) return;
+  const std::string names = names_of_joints(assembly.system, open);
+  if (model.simulate.equations == Equations::kPenalty)
+    notes.push_back(fmt::format("joints that stay open by up to {:.2g} m: {}; penalties make of it large forces that mean nothing, in place of a preload: use equations = \"newtonian\"", widest, names));
+  else notes.push_back(fmt::format("joints that stay open by up to {:.2g} m: {}; constraints omit the preload that this means for joints that yield, as with equations = \"newtonian\"", widest, names));
+}
+
 Assembly ideal_start(Model model, double known_span) {
   const bool loaded = is_preloaded(model.simulate.start);
   if (model.simulate.start == Start::kAssembled) model.simulate.start = Start::kUnloaded;
-  demand_no_states(make_ideal(build_system(model)));  // no position would help
+  demand_no_states(make_ideal(model, build_system(model)));  // no position would help
   Assembly assembly = assemble(model);
-  IdealRows rows = choose_ideal_rows(make_ideal(std::move(assembly.system)), assembly.state.q);
+  IdealRows rows = choose_ideal_rows(make_ideal(model, std::move(assembly.system)), assembly.state.q);
   assembly.system = std::move(rows.system);
   assembly.notes.insert(assembly.notes.end(), rows.notes.begin(), rows.notes.end());
   assembly.not_unique = std::move(rows.not_unique);
+  note_open_constraints(model, assembly, assembly.notes);
   const System& system = assembly.system;
   std::vector<int> laws;
   for (int j = 0; j < system.n_joints(); ++j)
@@ -196,7 +220,7 @@ void demand_coordinates(const System& system, const JointTree& tree) {
       throw AssemblyError(fmt::format("joint {}: its length is driven, and ideal joints leave no coordinate that could move.\n  Try equations = \"newtonian\", in which they yield", system.joints[j].name));
 }
 
-// Several speed or position motors on fewer degrees of freedom: the differences between their demands deflect joints.
+// Several speed or position motors on fewer degrees of freedom: the differences between their demands deflect joints. Throws if these are constraints and cannot yield.
 void note_conflicting_motors(const System& system, const Vecs& q, std::vector<std::string>& notes) {
   std::string names;
   int servos = 0;
@@ -209,8 +233,12 @@ void note_conflicting_motors(const System& system, const Vecs& q, std::vector<st
   if (counts.rank < 0) return;
   const int held = counts.freedoms - counts.rank - counts.mobility_driven;  // degrees of freedom, by all motors
   if (held >= servos) return;
+  const std::string freedom = held == 1 ? "one degree" : fmt::format("{} degrees", held), of_them = held == 1 ? "one" : std::to_string(held);
+  if (std::any_of(system.joints.begin(), system.joints.end(), [](const JointData& joint) { return joint.servo >= 0 && joint.constrained; }))
+    throw AssemblyError(fmt::format("motors {} together drive {} of freedom, and constraint equations do not say how they share it.\n  Try a speed or position for only {} of them, and a torque for the others; "
+                                    "or equations = \"newtonian\", in which the joints yield", names, freedom, of_them));
   notes.push_back(fmt::format("motors {} together drive {} of freedom: the differences between their targets deflect the joints, and may cause the largest forces; prescribe a speed or position for only {} of them, and a torque for the others",
-                              names, held == 1 ? "one degree" : fmt::format("{} degrees", held), held == 1 ? "one" : std::to_string(held)));
+                              names, freedom, of_them));
 }
 
 Assembly start_as_asked(const Model& model, double known_span) {

@@ -85,10 +85,11 @@ std::string known(double x) { return std::isfinite(x) ? engineering(x) : "-"; }
 // The first line of a message; also the second, if the first ends with a colon.
 std::string start_of(const std::string& message) {
   const std::size_t end = message.find('\n');
-  if (end == std::string::npos || end == 0 || message[end - 1] != ':') return message.substr(0, end);
+  if (end == std::string::npos || end == 0) return message;
   const std::size_t from = message.find_first_not_of(" \n", end);
-  if (from == std::string::npos) return message.substr(0, end);
-  return message.substr(0, end) + " " + message.substr(from, message.find('\n', from) - from);
+  const bool goes_on = message[end - 1] == ':', is_located = message[end + 1] == ' ';  // a place in the file, and then what is wrong there
+  if (from == std::string::npos || !(goes_on || is_located)) return message.substr(0, end);
+  return message.substr(0, end) + (goes_on ? " " : ": ") + message.substr(from, message.find('\n', from) - from);
 }
 
 std::string troubles_text(const SweepTable& table) {

@@ -2,6 +2,7 @@
 // function and its slope are continuous, the curvature jumps at the points. Beyond the ends it is linear.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "base/tables/cubic_curve.h"
@@ -21,6 +22,8 @@ class MonotoneTable {
   double slope(double x) const { return curve_.slope(odd_ && x < 0 ? -x : x); }
   /// From 0 to x, exact for the pieces: no quadrature.
   double integral(double x) const { return curve_.integral(odd_ && x < 0 ? -x : x) - integral_at_zero_; }
+  /// The longest interval in which it is 0, as where a pad is not touched; beyond an end if it is 0 there too. Empty (first above second) if there is none.
+  std::pair<double, double> play() const;
   /// The largest slope of the straight lines between neighbouring points.
   double steepest_secant() const;
 

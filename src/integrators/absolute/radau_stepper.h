@@ -57,6 +57,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const std::string& failure() const { return failure_; }
   const std::vector<LawCrossing>& crossings() const { return crossings_; }
   int sliding_load() const { return sliding_load_; }
+  double largest_step_error() const { return control_.largest_error; }
   const SwitchingEvent& event() const { return control_.event(); }
   /// The last event, if it came after `since`; otherwise empty.
   std::string last_event(double since) const { return control_.last_event(system_, since); }

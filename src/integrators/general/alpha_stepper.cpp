@@ -182,7 +182,7 @@ bool AlphaStepper::step(double t_end) {
       continue;
     }
     const double e = error(h);
-    const bool forced = forced_.must_take(e, h) && constraints_;
+    const bool forced = constraints_ && forced_.must_take(e, h, begin_.t + h >= t_end);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1 || forced) {
       const bool found = set_end_state(end_of_step(begin_.t, h, t_end), h);

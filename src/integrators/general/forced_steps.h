@@ -6,14 +6,15 @@
 
 namespace pintle {
 
-/// A step that has become much shorter than the usual one is at a singular position if its error does not decrease with the step; the error at a jump of a force
-/// does, in proportion, and the step is shortened until it is within the tolerance, or negligible.
+/// A step that has become much shorter than the usual one is at a singular position or a jump of a force: the error does not
+/// decrease with the step.
 class ForcedSteps {
  public:
   explicit ForcedSteps(double tolerance) : tolerance_(tolerance) {}
 
-  /// Whether an attempt at a step of h with this error, in units of the tolerance, is one of them. Call for every attempt, in their order.
-  bool must_take(double error, double h);
+  /// Whether a step of h with this error, in units of the tolerance, is one of them. `to_a_stop`: its length is what is left to a time at which a load may jump. There
+  /// the error falls in proportion to the step, which is taken when this is negligible.
+  bool must_take(double error, double h, bool to_a_stop) const;
   /// Call after such a step from `t`. Returns the length of the next one.
   double record_forced_step(double t, double h);
   /// Call after any other step.
@@ -23,8 +24,7 @@ class ForcedSteps {
 
  private:
   double tolerance_;
-  double usual_ = 0, first_ = 0;                 // [s]
-  double refused_error_ = 0, refused_h_ = 0;     // of the last attempt at this step; 0: none
+  double usual_ = 0, first_ = 0;  // [s]
   int n_ = 0;
 };
 

@@ -230,7 +230,7 @@ bool TreeAugmented::step(double t_end) {
     const bool solved = solve(h);
     const double e = solved ? error(h) : 0;
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
-    const bool forced = solved && forced_.must_take(e, h);
+    const bool forced = solved && forced_.must_take(e, h, begin_.t + h >= t_end);
     if (solved && (e <= 1 || forced)) {
       finish(end_of_step(begin_.t, h, t_end), h);
       if (!forced) forced_.record_step(h);

@@ -23,6 +23,7 @@ class StepControl {
  public:
   double next = 0, last = 0, usual = 0;  // step sizes [s]: the next; the last; the usual one, before an event shortened it
   double longest = 0;                    // [s]; 0: no limit
+  double largest_error = 0;              // of the steps taken since the start, in units of the tolerance
   bool have_history = false;             // the last step's curve continues into the next one
   bool behind_event = false;             // the next step is the first after an event
 
@@ -36,6 +37,7 @@ class StepControl {
 
   void start(double h) {
     next = usual = h;
+    largest_error = 0;
     have_history = false;
     behind_event = false;
     rounding_ = floor_h_ = floor_error_ = 0;
@@ -333,6 +335,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       }
       continue;
     }
+    largest_error = std::max(largest_error, measured);
     factor = foresee_growth(factor, h, error, order);
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);

@@ -35,6 +35,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return crossings_; }
   int sliding_load() const override { return sliding_load_; }
+  double largest_step_error() const override { return control_.largest_error; }
   std::string last_event(double since) const override { return control_.last_event(system_, since); }
   bool watches_bends() const override { return true; }
 

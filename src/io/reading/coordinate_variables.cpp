@@ -57,11 +57,12 @@ void add_place(const std::string& name, Variables& variables) {
 // If a joint and a body have the same name, the angle is the joint's.
 void add_mentioned_bodies(const ModelReading& reading, std::string_view text, Variables& variables) {
   const std::set<std::string> names = names_before_dots(text);
-  for (const Body& body : reading.model.bodies) {
-    if (!names.contains(body.name)) continue;
-    add_place(body.name, variables);
-    for (const Marker& marker : body.markers)
-      if (names.contains(marker.name)) add_place(body.name + "." + marker.name, variables);
+  for (const std::string& name : names) {
+    const auto body = reading.markers_of.find(name);
+    if (body == reading.markers_of.end() || name == "ground") continue;
+    add_place(name, variables);
+    for (const std::string& marker : body->second)
+      if (names.contains(marker)) add_place(name + "." + marker, variables);
   }
 }
 

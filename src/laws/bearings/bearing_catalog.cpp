@@ -194,7 +194,7 @@ void make_table(const LawSetting& at, Law& law) {
 
 constexpr std::array<LawInfo, 5> kBearings{{
     {.word = "linear-guide", .meaning = "a linear bearing: a spring and a damper, and the resistance to turning of a carriage that carries evenly", .keys = kGuideKeys, .stiffens = true, .joints = kSlides, .make = make_guide},
-    {.word = "rubber-bushing", .meaning = "a soft bushing: a spring and a damper; a torsion spring beside it is the twist of bonded rubber", .keys = kRubberKeys, .stiffens = true, .joints = kBushed, .make = make_linear},
+    {.word = "rubber-bushing", .meaning = "a soft bushing: a spring and a damper; a torsion spring beside it is the twist of bonded rubber", .keys = kRubberKeys, .stiffens = true, .yields = true, .joints = kBushed, .make = make_linear},
     {.word = "rolling-bearing", .meaning = "a ball or roller bearing: a spring and a damper, or force against deflection from its balls or rollers, with play or preload", .keys = kRollingKeys, .joints = kPins, .make = make_rolling, .fault = rolling_fault},
     {.word = "journal-bearing", .meaning = "a plain bearing: a spring and a damper, or a film of oil between pin and bush", .keys = kJournalKeys, .joints = kPins, .make = make_journal, .fault = journal_fault},
     {.word = "table", .meaning = "a measured force against displacement, by smooth pieces that do not overshoot; of a pin against its length, in every direction alike", .keys = kTableKeys, .joints = kTwoSided, .make = make_table, .fault = table_fault},

@@ -6,6 +6,8 @@
 // At e = 0 a pin's tangent is the table's slope there, in every direction. The table loses no power; the damper in parallel does.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <string_view>
 
 #include "base/tables/monotone_table.h"
@@ -37,6 +39,21 @@ struct TableLaw {
     const T secant = where_positive(r, divide(force_of(r), r), T(table.slope(0)));
     for (int k = 0; k < 2; ++k) out.force[k] = -(secant * in.gap[k]);                // (4.1)
     out.energy = energy_of(r);                                                       // (4.2)
+  }
+  // A stretch without force is the way to a pad, or between two; a pin's is its play, in which it starts seated.
+  bool starts_free() const {
+    const auto [from, to] = table.play();
+    return !radial && from < to;
+  }
+  // How far a pad is pressed; minus infinity for a table that resists everywhere.
+  double penetration(const Planar::Vec& gap) const {
+    if (!starts_free()) return -std::numeric_limits<double>::infinity();
+    const auto [from, to] = table.play();
+    return std::max(from - gap[along], gap[along] - to);
+  }
+  Planar::Vec misfit(Planar::Vec gap) const {
+    if (starts_free()) gap[along] = gap[along] - std::clamp(gap[along], table.play().first, table.play().second);
+    return gap;
   }
   Planar::Vec engaged_stiffness() const {
     Planar::Vec k = Planar::Vec::Zero();

@@ -15,9 +15,17 @@ namespace {
 // joints are meant to deflect. No stiff joint of the collection deflects by a twentieth of it; with double it a rod that is shorter than its crank by a tenth is not reported.
 constexpr double kTorn = 0.02;
 
-// The largest stiffness of a joint against displacements, as of a blade pulled lengthwise [N/m]; infinite if it holds none, or is ideal.
+// Ropes, contacts and pads stretch and yield along one line, as they are made to. And the peak of a joint with stops may be the force of a stop.
+template <class S>
+bool is_made_to_yield(const BasicLaw<S>& law) {
+  const auto held = (law.engaged_stiffness().template head<S::kDim>().array() > 0).count();
+  return (law.starts_free() && held <= 1) || std::any_of(law.parts().begin(), law.parts().end(), [](const auto& part) { return part->stops(); });
+}
+
+// The largest stiffness of a joint against displacements, as of a blade pulled lengthwise [N/m]; infinite if it holds none, is ideal, or is made to yield.
 template <class S>
 double largest_stiffness(const BasicJointData<S>& joint) {
+  if (is_made_to_yield(joint.law)) return std::numeric_limits<double>::infinity();
   const double largest = joint.servo >= 0 || joint.ideal ? 0 : joint.law.engaged_stiffness().template head<S::kDim>().maxCoeff();
   return largest > 0 ? largest : std::numeric_limits<double>::infinity();
 }
