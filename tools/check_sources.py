@@ -19,6 +19,7 @@ ROOMS = "base simd space model linalg laws joints system kinematics integrators 
 # The folders of a room, in order of dependence; files in the room itself are open to all of them.
 FOLDERS_OF = {
     "base": "text tables expression".split(),
+    "check": ["modes"],
     "integrators": "radau absolute dense relative general ideal".split(),
     "io": "schema reading toml".split(),
     "laws": "friction contact bearings flexures".split(),

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "check/check_batteries.h"
-#include "check/check_frequencies.h"
+#include "check/modes/check_frequencies.h"
 #include "check/check_gears.h"
-#include "check/check_small_motions.h"
+#include "check/modes/check_small_motions.h"
 #include "check/check_topology.h"
 #include "mobility/mobility.h"
 #include "pintle/check.h"

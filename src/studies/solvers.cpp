@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "base/stopwatch.h"
-#include "check/check_frequencies.h"
+#include "check/modes/check_frequencies.h"
 #include "integrators/methods.h"
 #include "pintle/simulate.h"
 #include "run/integration.h"

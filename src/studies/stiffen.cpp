@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "base/text/did_you_mean.h"
-#include "check/check_frequencies.h"
+#include "check/modes/check_frequencies.h"
 #include "joints/catalog.h"
 #include "laws/catalog.h"
 #include "laws/least_stated.h"

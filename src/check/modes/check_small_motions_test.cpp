@@ -1,5 +1,5 @@
 // Small motions by hand: a bar that hangs or stands on its pin, a mass on a spring and a damper, rubber, and what does not rest.
-#include "check/check_small_motions.h"
+#include "check/modes/check_small_motions.h"
 
 #include <gtest/gtest.h>
 

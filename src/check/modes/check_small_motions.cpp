@@ -1,4 +1,4 @@
-#include "check/check_small_motions.h"
+#include "check/modes/check_small_motions.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "integrators/general/first_order_ode.h"
 #include "linalg/dense_factors.h"
-#include "start/settle_joints.h"
+#include "start/start.h"
 
 namespace pintle {
 namespace {

@@ -1,5 +1,5 @@
 // Frequencies by hand: a bar on a pin, and the stability limit of Dormand-Prince.
-#include "check/check_frequencies.h"
+#include "check/modes/check_frequencies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "check/check_frequencies.h"
+#include "check/modes/check_frequencies.h"
 
 #include <fmt/format.h>
 
