@@ -57,6 +57,17 @@ void expect_pins(const Trajectory& run, const reference::Table& exact, std::init
     }
 }
 
+// Rubber is there to yield: m w^2 of the shaken mass, of which a rigid mount would carry all.
+TEST(Ideal, LeavesRubberAlone) {
+  const Trajectory yields = simulate(reference::test_model("mass_on_a_rubber_mount"));
+  ASSERT_EQ(yields.outcome, Outcome::kCompleted) << yields.message;
+  for (const char* equations : {"ideal", "penalty", "augmented_lagrangian", "relative_augmented_lagrangian"}) {
+    const Trajectory run = simulate(reference::test_model("mass_on_a_rubber_mount", {std::string("simulate.equations=\"") + equations + "\""}));
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << equations << run.message;
+    EXPECT_NEAR(run.joints[0].peak, yields.joints[0].peak, 1e-4 * yields.joints[0].peak) << equations;
+  }
+}
+
 TEST(Ideal, FourBarHasNineDigits) {
   const Trajectory run = ideal_run("four_bar", {"simulate.tolerance=1e-9"});
   const reference::Table exact = reference::read_table("four_bar");

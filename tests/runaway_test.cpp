@@ -124,6 +124,12 @@ TEST(TornJoints, AreNotedWithWhatFeedsThem) {
   EXPECT_NE(notes_of(run).find("joint J is torn open by 0.025 m, 10 % of the mechanism's size, at t = 0.4094 s"), std::string::npos) << notes_of(run);
   EXPECT_EQ(notes_of(simulate(reference::mechanism("four_bar"))).find("torn"), std::string::npos);
   EXPECT_EQ(notes_of(simulate(reference::mechanism("crane_bushing"))).find("torn"), std::string::npos);  // soft by design
+  // A cord that stretches by a twentieth of its length; and a stop, whose force is not the guide's.
+  for (const char* made_to_yield : {"dart_caught_by_a_cord", "ram_against_a_hard_stop"}) {
+    const Trajectory caught = simulate(reference::test_model(made_to_yield));
+    EXPECT_EQ(caught.outcome, Outcome::kCompleted) << caught.message;
+    EXPECT_EQ(notes_of(caught).find("torn"), std::string::npos) << notes_of(caught);
+  }
 }
 
 // It turns faster and faster until its pin gives way; the pin's damper then takes what the motor feeds.

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/constants.h"
+#include "base/tables/monotone_table.h"
 #include "pintle/simulate.h"
 #include "tests/reference_tables.h"
 
@@ -216,6 +217,17 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   crank.spin.reset();
   model.bodies[0].velocity = Vec2{0, 3};
   EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
+}
+
+// Where its table gives no force, a pad holds nothing: the hammer keeps its place and its speed, and is stopped by what the table stores.
+TEST(Starts, WhatATableLeavesFreeStartsWhereItIs) {
+  const Trajectory run = completed(test_model("hammer_thrown_at_a_felt_pad"));
+  EXPECT_EQ(value(run, 0, "body.hammer.x"), -0.01);
+  EXPECT_EQ(value(run, 0, "body.hammer.vx"), 3);
+  const MonotoneTable felt({-0.02, 0, 0.02}, {0, 0, 200});
+  double depth = 0, beyond = 0.02;
+  while (beyond - depth > 1e-12) (felt.integral(0.5 * (depth + beyond)) < 0.5 * 9e-3 * 9 ? depth : beyond) = 0.5 * (depth + beyond);
+  EXPECT_NEAR(run.joints[1].peak, felt.value(depth), 1e-5 * felt.value(depth));
 }
 
 // A lever 18 mm above its cam is not assembled. After a raw start, which moves nothing that is stated, it falls onto the cam.
