@@ -35,25 +35,24 @@ void demand_no_states(const System& system) {
 
 // Ideal joints carry no preload: their loops are closed exactly. Joints that stay force laws begin with the deflections that carry their loads.
 // What constraints cannot close, compliant joints would be preloaded by.
-void note_open_constraints(const Model& model, const Assembly& assembly, std::vector<std::string>& notes) {
-  constexpr double kOpen = 1e-9;  // as a fraction of the mechanism's size: less is rounding
-  const double negligible = kOpen * mechanism_size(assembly.system, assembly.state.q);
-  const std::vector<JointKinematics> r = kinematics_at_rest(assembly.system, assembly.state.q);
+void note_open_constraints(Equations equations, Assembly& assembly) {
+  const System& system = assembly.system;
+  const double rounding = kAsStated * mechanism_size(system, assembly.state.q);
+  const std::vector<JointKinematics> r = kinematics_at_rest(system, assembly.state.q);
   std::vector<int> open;
   double widest = 0;
-  for (int j = 0; j < assembly.system.n_joints(); ++j) {
-    const JointData& joint = assembly.system.joints[j];
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
     if (!joint.ideal || joint.servo >= 0) continue;
     const double gap = std::hypot(joint.held[0] ? r[j].gap[0] : 0, joint.held[1] ? r[j].gap[1] : 0);
-    if (!(gap > negligible)) continue;
+    if (!(gap > rounding)) continue;
     open.push_back(j);
     widest = std::max(widest, gap);
   }
   if (open.empty()) return;
-  const std::string names = names_of_joints(assembly.system, open);
-  if (model.simulate.equations == Equations::kPenalty)
-    notes.push_back(fmt::format("joints that stay open by up to {:.2g} m: {}; penalties make of it large forces that mean nothing, in place of a preload: use equations = \"newtonian\"", widest, names));
-  else notes.push_back(fmt::format("joints that stay open by up to {:.2g} m: {}; constraints omit the preload that this means for joints that yield, as with equations = \"newtonian\"", widest, names));
+  const char* what = equations == Equations::kPenalty ? "penalties make of it large forces that mean nothing, in place of a preload: use equations = \"newtonian\""
+                                                      : "constraints omit the preload that this means for joints that yield, as with equations = \"newtonian\"";
+  assembly.notes.push_back(fmt::format("joints that stay open by up to {:.2g} m: {}; {}", widest, names_of_joints(system, open), what));
 }
 
 Assembly ideal_start(Model model, double known_span) {
@@ -65,7 +64,7 @@ Assembly ideal_start(Model model, double known_span) {
   assembly.system = std::move(rows.system);
   assembly.notes.insert(assembly.notes.end(), rows.notes.begin(), rows.notes.end());
   assembly.not_unique = std::move(rows.not_unique);
-  note_open_constraints(model, assembly, assembly.notes);
+  note_open_constraints(model.simulate.equations, assembly);
   const System& system = assembly.system;
   std::vector<int> laws;
   for (int j = 0; j < system.n_joints(); ++j)
@@ -221,7 +220,7 @@ void demand_coordinates(const System& system, const JointTree& tree) {
 }
 
 // Several speed or position motors on fewer degrees of freedom: the differences between their demands deflect joints. Throws if these are constraints and cannot yield.
-void note_conflicting_motors(const System& system, const Vecs& q, std::vector<std::string>& notes) {
+void note_or_refuse_conflicting_motors(const System& system, const Vecs& q, std::vector<std::string>& notes) {
   std::string names;
   int servos = 0;
   for (const JointData& joint : system.joints) {
@@ -272,7 +271,7 @@ Assembly start_as_asked(const Model& model, double known_span) {
 
 Assembly start_of_run(const Model& model, double known_span) {
   Assembly assembly = start_as_asked(model, known_span);
-  if (known_span == 0) note_conflicting_motors(assembly.system, assembly.state.q, assembly.notes);
+  if (known_span == 0) note_or_refuse_conflicting_motors(assembly.system, assembly.state.q, assembly.notes);
   return assembly;
 }
 

@@ -16,22 +16,22 @@ CubicCurve monotone_curve(std::vector<double> x, std::vector<double> y, bool odd
   return {std::move(x), std::move(y), std::move(slope)};
 }
 
+// Between the first and the last of neighbouring points with the value 0.
+std::pair<double, double> zero_interval_of(const CubicCurve& curve, bool odd) {
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  const std::vector<double>&x = curve.x(), &y = curve.y();
+  const std::size_t first = static_cast<std::size_t>(std::find(y.begin(), y.end(), 0.0) - y.begin());
+  std::size_t last = first;
+  while (last + 1 < y.size() && y[last + 1] == 0) ++last;
+  if (first == last) return {0, 0};
+  const double to = last + 1 == y.size() ? kUnbounded : x[last];
+  return {odd ? -to : first == 0 ? -kUnbounded : x[first], to};
+}
+
 }  // namespace
 
 MonotoneTable::MonotoneTable(std::vector<double> x, std::vector<double> y, Symmetry symmetry)
-    : odd_(symmetry == Symmetry::kOdd), curve_(monotone_curve(std::move(x), std::move(y), odd_)), integral_at_zero_(curve_.integral(0)) {}
-
-std::pair<double, double> MonotoneTable::play() const {
-  constexpr double kBeyond = std::numeric_limits<double>::infinity();
-  const std::vector<double>&x = curve_.x(), &y = curve_.y();
-  std::size_t first = 0;
-  while (first < y.size() && y[first] != 0) ++first;
-  std::size_t last = first;
-  while (last + 1 < y.size() && y[last + 1] == 0) ++last;
-  if (last >= y.size() || first == last) return {kBeyond, -kBeyond};
-  const double from = first == 0 ? -kBeyond : x[first], to = last + 1 == y.size() ? kBeyond : x[last];
-  return odd_ ? std::pair(-to, to) : std::pair(from, to);
-}
+    : odd_(symmetry == Symmetry::kOdd), curve_(monotone_curve(std::move(x), std::move(y), odd_)), integral_at_zero_(curve_.integral(0)), zero_(zero_interval_of(curve_, odd_)) {}
 
 double MonotoneTable::steepest_secant() const {
   const std::vector<double>&x = curve_.x(), &y = curve_.y();

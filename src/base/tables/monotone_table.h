@@ -22,8 +22,8 @@ class MonotoneTable {
   double slope(double x) const { return curve_.slope(odd_ && x < 0 ? -x : x); }
   /// From 0 to x, exact for the pieces: no quadrature.
   double integral(double x) const { return curve_.integral(odd_ && x < 0 ? -x : x) - integral_at_zero_; }
-  /// The longest interval in which it is 0, as where a pad is not touched; beyond an end if it is 0 there too. Empty (first above second) if there is none.
-  std::pair<double, double> play() const;
+  /// The interval in which it is 0, as where a pad is not touched; unbounded at an end where it is 0. Its length is 0 where the table only passes through 0 or stays above or below.
+  std::pair<double, double> zero_interval() const { return zero_; }
   /// The largest slope of the straight lines between neighbouring points.
   double steepest_secant() const;
 
@@ -31,6 +31,7 @@ class MonotoneTable {
   bool odd_ = false;
   CubicCurve curve_;
   double integral_at_zero_ = 0;
+  std::pair<double, double> zero_{0, 0};
 };
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// Small motions by hand: a bar that hangs or stands on its pin, a mass on a spring and a damper, rubber, and what does not rest.
+// Small motions by hand: a bar that hangs or stands on its pin, or floats there; one on rubber; and one that does not rest.
 #include "check/modes/check_small_motions.h"
 
 #include <gtest/gtest.h>
@@ -14,10 +14,14 @@ namespace {
 // m g r against I + m r^2 about the pin, to what the pin yields.
 const double kPendulum = std::sqrt(9.81 * 0.5 * 3);
 
-TEST(CheckSmallMotions, BarThatHangs) {
+CheckSmallMotions bar_on_a_pin(Vec2 gravity) {
   Model model = checked::pendulum();
-  model.gravity = {0, 9.81};
-  const CheckSmallMotions s = check_model(model).small_motions;
+  model.gravity = gravity;
+  return check_model(model).small_motions;
+}
+
+TEST(CheckSmallMotions, BarThatHangs) {
+  const CheckSmallMotions s = bar_on_a_pin({0, 9.81});
   ASSERT_TRUE(s.known) << s.remark;
   ASSERT_EQ(s.modes.size(), 3u);
   EXPECT_NEAR(s.modes[0].frequency, kPendulum, 1e-6 * kPendulum);
@@ -32,9 +36,7 @@ TEST(CheckSmallMotions, BarThatHangs) {
 }
 
 TEST(CheckSmallMotions, BarThatStandsFallsOver) {
-  Model model = checked::pendulum();
-  model.gravity = {0, -9.81};
-  const CheckSmallMotions s = check_model(model).small_motions;
+  const CheckSmallMotions s = bar_on_a_pin({0, -9.81});
   ASSERT_TRUE(s.known) << s.remark;
   ASSERT_EQ(s.modes.size(), 4u);
   for (const int i : {0, 1}) EXPECT_EQ(s.modes[i].imaginary, 0);
@@ -43,9 +45,7 @@ TEST(CheckSmallMotions, BarThatStandsFallsOver) {
 }
 
 TEST(CheckSmallMotions, WithoutGravityTheBarIsFree) {
-  Model model = checked::pendulum();
-  model.gravity = {0, 0};
-  const CheckSmallMotions s = check_model(model).small_motions;
+  const CheckSmallMotions s = bar_on_a_pin({0, 0});
   ASSERT_TRUE(s.known) << s.remark;
   EXPECT_EQ(s.modes.size(), 2u);
   EXPECT_EQ(s.n_free, 1);

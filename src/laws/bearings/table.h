@@ -40,19 +40,16 @@ struct TableLaw {
     for (int k = 0; k < 2; ++k) out.force[k] = -(secant * in.gap[k]);                // (4.1)
     out.energy = energy_of(r);                                                       // (4.2)
   }
-  // A stretch without force is the way to a pad, or between two; a pin's is its play, in which it starts seated.
-  bool starts_free() const {
-    const auto [from, to] = table.play();
-    return !radial && from < to;
-  }
+  // An interval without force is the way to a pad, or between two; a pin's is its play, in which it starts seated.
+  bool starts_free() const { return !radial && table.zero_interval().first < table.zero_interval().second; }
   // How far a pad is pressed; minus infinity for a table that resists everywhere.
   double penetration(const Planar::Vec& gap) const {
-    if (!starts_free()) return -std::numeric_limits<double>::infinity();
-    const auto [from, to] = table.play();
-    return std::max(from - gap[along], gap[along] - to);
+    const auto [from, to] = table.zero_interval();
+    return starts_free() ? std::max(from - gap[along], gap[along] - to) : -std::numeric_limits<double>::infinity();
   }
   Planar::Vec misfit(Planar::Vec gap) const {
-    if (starts_free()) gap[along] = gap[along] - std::clamp(gap[along], table.play().first, table.play().second);
+    const auto [from, to] = table.zero_interval();
+    if (starts_free()) gap[along] -= std::clamp(gap[along], from, to);
     return gap;
   }
   Planar::Vec engaged_stiffness() const {

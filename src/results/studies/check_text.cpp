@@ -179,8 +179,9 @@ std::string small_motion_section(const CheckSmallMotions& s, const Look& look) {
     grows = grows || growing;
     if (!look.details && !growing && shown >= kMaxSmallMotions) continue;
     ++shown;
-    table.add_row({growing ? "grows" : m.imaginary > 0 ? "vibrates" : "decays", m.body, m.direction, engineering(100 * m.share), m.imaginary > 0 ? engineering(m.frequency) : "",
-                   m.imaginary > 0 ? hertz(m.frequency) : "", m.imaginary > 0 ? engineering(m.damping_ratio) : "", std::abs(m.real) > s.resolved ? engineering(1 / std::abs(m.real)) : ""});
+    const bool vibrates = m.imaginary > 0;
+    table.add_row({growing ? "grows" : vibrates ? "vibrates" : "decays", m.body, m.direction, engineering(100 * m.share), vibrates ? engineering(m.frequency) : "",
+                   vibrates ? hertz(m.frequency) : "", vibrates ? engineering(m.damping_ratio) : "", std::abs(m.real) > s.resolved ? engineering(1 / std::abs(m.real)) : ""});
   }
   text += " (with all forces, and the coordinate that moves most)\n";
   if (!table.empty()) text += table.text(look.bold, look.plain);
