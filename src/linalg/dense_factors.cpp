@@ -33,11 +33,12 @@ bool SymmetricEigen::compute(const Eigen::MatrixXd& matrix) {
   return solver_.info() == Eigen::Success;
 }
 
-bool GeneralEigen::compute(const Eigen::MatrixXd& matrix) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+bool GeneralEigen::compute(const Eigen::MatrixXd& matrix, Vectors vectors) {
+  const bool with_vectors = vectors == Vectors::kFound;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, with_vectors);
   if (solver.info() != Eigen::Success) return false;
   values_ = solver.eigenvalues();
-  vectors_ = solver.eigenvectors();
+  if (with_vectors) vectors_ = solver.eigenvectors();
   return true;
 }
 

@@ -60,8 +60,9 @@ class SymmetricEigen {
 /// Eigenvalues of a real square matrix, in no order, and the eigenvectors as columns.
 class GeneralEigen {
  public:
+  enum class Vectors { kLeftOut, kFound };
   /// Returns false if the iteration did not converge.
-  bool compute(const Eigen::MatrixXd& matrix);
+  bool compute(const Eigen::MatrixXd& matrix, Vectors vectors = Vectors::kFound);
   const Eigen::VectorXcd& eigenvalues() const { return values_; }
   const Eigen::MatrixXcd& eigenvectors() const { return vectors_; }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "joints/belt.h"
 
@@ -226,7 +227,8 @@ const typename BasicEnergyWatch<S>::Feeder* BasicEnergyWatch<S>::largest_feeder(
 template <class S>
 std::string BasicEnergyWatch<S>::note_on_feeder() const {
   const Feeder* most = largest_feeder();
-  if (most == nullptr || !most->listens || !(most->work > kFarFed * storable_)) return {};
+  const double fed = std::accumulate(feeders_.begin(), feeders_.end(), 0.0, [](double sum, const Feeder& f) { return sum + f.work; });  // less what others take up
+  if (most == nullptr || !most->listens || !(std::min(most->work, fed) > kFarFed * storable_)) return {};
   return fmt::format("{} {} has fed {:.3g} J, {:.2g} times what the mechanism stores by itself: check the signs of what it depends on", most->kind, *most->name, most->work,
                      most->work / storable_);
 }

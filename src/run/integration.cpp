@@ -17,6 +17,9 @@ namespace pintle {
 namespace {
 
 constexpr std::uint64_t kMaxSteps = 20'000'000;  // upper limit for one integration
+constexpr std::uint64_t kManyEvents = 1000;       // a motion that stands still after more events than this switches its forces to and fro
+constexpr const char* kSwitchesOften = ". A force that switches so often jumps where the motion stays, as sign(...) of a rate does where a body comes to rest: write a steep slope instead, "
+                                       "as tanh(rate/(1 mm/s)), or friction";
 
 // Detects a motion that needs ever shorter steps because it diverges.
 class Standstill {
@@ -93,12 +96,14 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   if (plan.energy) plan.energy->start(stepper.state());
   std::size_t row = 1;
   const double end = plan.duration, almost = end * kAlmostAll;
+  const auto jumps_at_end = has_constraints(plan.choice.equations) ? first_target_jump(system, almost, end) : std::nullopt;
+  const double last = jumps_at_end ? jumps_at_end->t : end;  // a motor's table that ends with the run has no speed from there on
   Standstill standstill(end);
   const std::vector<double> stops = stepper.watches_bends() ? std::vector<double>{} : stops_at_bends(system, stepper.state().t, end);
   std::size_t stop = 0;
   while (stepper.state().t < almost) {
     while (stop < stops.size() && stops[stop] <= stepper.state().t + (end - almost)) ++stop;
-    if (!stepper.step(stop < stops.size() ? stops[stop] : end)) {
+    if (!stepper.step(stop < stops.size() && stops[stop] < last ? stops[stop] : last)) {
       out.ended = Ended::kFailed;
       out.message = stepper.failure();
       break;
@@ -110,7 +115,10 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
       break;
     }
     recorder.see_step(stepper);
-    if (plan.ringing && stepper.nodes() != nullptr && now.t > stepper.previous().t) plan.ringing->see_step(*stepper.nodes(), now.t - stepper.previous().t);
+    if (const double h = now.t - stepper.previous().t; stepper.nodes() != nullptr && h > 0) {
+      if (plan.ringing) plan.ringing->see_step(*stepper.nodes(), h);
+      if (plan.instability) plan.instability->see_step(now, h, stepper.nodes()->table->n);
+    }
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
       recorder.add(stepper.interpolate(t));
@@ -120,6 +128,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
       out.message = fmt::format("the motion diverges, or the tolerance is below the rounding error of the forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
       if (const std::string event = stepper.last_event(standstill.since()); !event.empty())
         out.message += fmt::format(", after {} events; the last: {}", stepper.counters().events, event);
+      if (stepper.counters().events > kManyEvents) out.message += kSwitchesOften;
       break;
     }
     if (stepper.counters().steps >= kMaxSteps) {

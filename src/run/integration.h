@@ -8,6 +8,7 @@
 #include "integrators/methods.h"
 #include "run/energy_watch.h"
 #include "run/errors/ringing_loss.h"
+#include "run/errors/suppressed_instability.h"
 #include "run/record/force_recorder.h"
 
 namespace pintle {
@@ -23,6 +24,7 @@ struct BasicIntegrationPlan {
   const BasicLoadScale<S>* scale = nullptr;  // from an earlier pass
   BasicEnergyWatch<S>* energy = nullptr;     // ends the integration if it raises an alarm
   BasicRingingLoss<S>* ringing = nullptr;    // sees the steps of methods that keep their stages
+  BasicSuppressedInstability<S>* instability = nullptr;  // sees these steps, too
   std::function<bool(double t)> keep_going;  // called after each step; false stops
 };
 using IntegrationPlan = BasicIntegrationPlan<Planar>;

@@ -12,7 +12,6 @@ constexpr double kLoosest = 1e-4;          // upper limit on the tolerance of th
 constexpr double kLoosestIdeal = 1e-8;     // the same for ideal joints, which serve as a reference and are cheap
 constexpr double kLoosestOfMotion = 1e-3;  // the same for a tolerance on the motion; no pass or energy account is looser
 constexpr double kLeastTolerance = 1e-13;  // lower limit for any pass: below it all is roundoff
-constexpr double kLatePart = 0.25;         // last part of a run: passes that agree there have not separated as chaotic motions do. With half of it nothing changes; with 0.5 a striking train that comes to rest is taken for chaotic
 constexpr double kPromised = 0.7;          // accept if the stated error is below this fraction of the tolerance: the true error, which may be a third larger, then meets it
 constexpr double kPromisedByFew = 0.5;     // the same for order 9, whose steps are few and long, so that two passes show less. With 0.7, 5 more of 817 runs of the battery exceed the tolerance
 constexpr double kPromisedStuck = 0.2;     // the same where surfaces have come to rest: both passes may have locked in the same force, which differs from that of finer ones. With 0.7 and 0.5 a toggle clamp with rubbing pins is wrong by up to 5 tolerances
@@ -33,6 +32,7 @@ constexpr double kFarBelow = 1e-18;        // if growing errors would require a 
 constexpr double kSudden = 0.1;            // fraction of the previous error times the ratio of the two tolerances: passes with a smaller error may agree by chance
 constexpr double kLeap = 1e-4;             // lower limit on the next tolerance, as a fraction of the last, unless two pairs have shown the same exponential growth
 constexpr double kShift = 0.2;             // fraction of the time in which errors grow by the ratio of two tolerances: the tighter passes must part at least this much later. Those of a pendulum that falls from its upper position part 0.04 of it later, as errors grow only while it falls
+constexpr double kMostFollowed = 1e5;      // upper limit on the steps of a pass that follows a growing vibration: a few seconds
 constexpr int kMostOpen = 2;               // upper limit on the passes repeated because the energy account did not close
 
 }  // namespace pintle::pass_decisions

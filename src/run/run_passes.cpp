@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "integrators/thresholds.h"
@@ -29,7 +30,7 @@ template <class S>
 class Passes {
  public:
   Passes(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const BasicPassContext<S>& context, Trajectory& out)
-      : system_(system), start_(start), settings_(settings), context_(context), out_(out), fine_ringing_(system, start, context.effective_mass) {}
+      : system_(system), start_(start), settings_(settings), context_(context), out_(out), fine_ringing_(system, start, context.effective_mass), instability_(system, settings.duration) {}
 
   std::unique_ptr<BasicForceRecorder<S>> go() {
     out_.tolerance = settings_.tolerance;
@@ -73,6 +74,8 @@ class Passes {
     BasicRingingLoss<S> ringing = fine_ringing_;
     ringing.start_again();
     if (context_.shape.checked) p.ringing = &ringing;  // otherwise no error is stated
+    instability_.start_again();
+    if (context_.shape.checked && choice_.equations == Equations::kNewtonian) p.instability = &instability_;
     BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
     count(done.counters);
     const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
@@ -162,7 +165,7 @@ class Passes {
     coarse_before_ = std::exchange(coarse_tolerance_, before);
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     const bool lucky = choice_.method != "radau" && !has_constraints(choice_.equations);  // their tolerances are on states, and forces may be much better in one pass than these ask for
-    const bool all = alike_ || lucky || out_.of_motion || last_.sliding_load >= 0 || multiplies_roundoff();
+    const bool all = alike_ || lucky || out_.of_motion || last_.sliding_load >= 0 || multiplies_roundoff() || follows_first_;
     share_ = share_while_small_ = all ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
@@ -175,7 +178,7 @@ class Passes {
       coarse_at_last_growth_ = coarse_before_;
     }
     growth_ = {};
-    if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
+    if (apart > kPromised * settings_.tolerance) growth_ = growth_between(system_, coarse, fine, out_.of_motion, settings_.tolerance, kPromised);
     if (growth_.exponential && growth_.saturated) {
       take_all(coarse, fine);
       ++growths_;
@@ -184,28 +187,6 @@ class Passes {
     stalled_ = error_before_ > 0 && error_ > error_before_;
     const double of_passes = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
     error_before_ = std::exchange(error_, out_.of_motion ? of_passes : std::max(of_passes, largest_ringing_loss(system_, difference_, fine_ringing_, fine_tolerance_)));
-  }
-
-  // Once an impact differs in time by more than its duration, the forces of two passes differ there by the whole force, and by little between impacts.
-  // Differences of positions grow steadily instead: the line is fitted to these and shifted to where the forces reach the tolerance. theory/time section 6.1.
-  ErrorGrowth growth_of(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) const {
-    if (out_.of_motion) return fit_growth(motion_difference_curve(system_, coarse, fine));
-    const DifferenceCurve forces = force_difference_curve(system_, coarse, fine);
-    if (comes_together_again(forces)) return {};
-    const ErrorGrowth of_forces = fit_growth(forces);
-    if (of_forces.exponential || !of_forces.saturated) return of_forces;
-    ErrorGrowth of_places = fit_growth_to_largest(motion_difference_curve(system_, coarse, fine));
-    if (!of_places.exponential || !of_places.saturated) return of_forces;
-    of_places.level = settings_.tolerance * std::exp(of_places.rate * (of_places.until - curve_horizon(forces, settings_.tolerance)));
-    return of_places;
-  }
-
-  // Passes that have separated for good do not return to within the tolerance by the end of the run. Those of a striking train that comes to rest do.
-  bool comes_together_again(const DifferenceCurve& forces) const {
-    const double from = forces.t.empty() ? 0 : forces.t.back() - kLatePart * (forces.t.back() - forces.t.front());
-    for (std::size_t i = 0; i < forces.t.size(); ++i)
-      if (forces.t[i] >= from && forces.e[i] > kPromised * settings_.tolerance) return false;
-    return true;
   }
 
   // Errors of the last pass relative to those of the previous one: the ratio of the tolerances, or more if the steps have shrunk by less than this would require.
@@ -249,7 +230,9 @@ class Passes {
       return at(kRepeated * tolerance);
     }
     const double enough = tolerance < kFinest ? 1 : has_stuck() && tolerance > kNearRounding ? kPromisedStuck : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance; 1 where finer passes find roundoff
+    if (std::exchange(follows_first_, false)) note_on_instability(error_ > wanted);
     if (error_ <= enough * wanted) {
+      if (follow_instability()) return at(tolerance);
       // If the passes took nearly the same steps again, the tolerance does not limit them, and that the passes agree is little evidence.
       if (agree_suddenly() && !confirmed_ && !last_one) return confirmed_ = true, at(kRepeated * tolerance);
       if (!alike_ || out_.of_motion || longest_ > 0 || last_one || choice_.method != "radau") return false;
@@ -271,6 +254,22 @@ class Passes {
     }
     at_rounding_ = meets_rounding(tolerance) || (last_.sliding_load >= 0 && tolerance <= kNarrowed);
     return at_rounding_ ? end_far_apart() : at(finer_by_error(tolerance));
+  }
+
+  // Whether the next pass follows a vibration that the accepted one has damped although it grows; its steps are short then. Asked once.
+  bool follow_instability() {
+    if (suppressed_) return false;
+    suppressed_ = instability_.find();
+    if (!suppressed_) return false;
+    const double step = longest_following_step(*suppressed_);
+    follows_first_ = settings_.duration < kMostFollowed * step;
+    if (follows_first_) longest_ = step;
+    else note_on_instability(true);
+    return follows_first_;
+  }
+
+  void note_on_instability(bool matters) {
+    if (matters) out_.notes.push_back(note_on_suppressed(*suppressed_, settings_.duration, longest_ > 0));
   }
 
   // Whether surfaces have come to rest. The force they lock in depends on how they did.
@@ -450,6 +449,9 @@ class Passes {
   const BasicPassContext<S>& context_;
   Trajectory& out_;
   BasicRingingLoss<S> fine_ringing_;
+  BasicSuppressedInstability<S> instability_;  // of the last pass
+  std::optional<SuppressedMode> suppressed_;  // found in it, or in an earlier one
+  bool follows_first_ = false;                // the next pass, or the one that has just ended, is the first whose steps follow it
   MethodChoice choice_;
   std::unique_ptr<BasicForceRecorder<S>> coarse_, fine_;
   double fine_tolerance_ = 0, coarse_tolerance_ = 0, coarse_before_ = 0;  // of the last two passes; of the coarser one in the previous comparison

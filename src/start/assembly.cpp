@@ -338,7 +338,7 @@ void demand_apart(const Model& model, const System& system, const Vecs& q, const
     if (const auto belt = belt_of(joint.displacement)) demand_reach(joint, *belt, system.pose(joint.at, m).z);
     const double depth = joint.law.penetration(r[j].gap);
     if (depth <= kDeep * size || model.simulate.start == Start::kSettled) continue;  // a settled start pushes them apart first
-    const bool loose = joint.free_mask.head<2>().isZero() || joint.free_mask[2] == 0;  // a pin or a slide with clearance, which has no other side
+    const bool loose = std::holds_alternative<Selection>(joint.displacement) && (joint.free_mask.head<2>().isZero() || joint.free_mask[2] == 0);  // a pin or a slide with clearance, which has no other side
     if (loose)
       throw AssemblyError(fmt::format("joint {}: at the stated positions its parts are {:.4g} m farther apart than its clearance.\n  Try positions nearer to each other, or start = \"assembled\" or \"seated\", which put them there",
                                       joint.name, depth));

@@ -121,34 +121,43 @@ double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
   return 0;
 }
 
-// All in one note, as there may be many.
+// Joints that cannot follow their load, and the longest time in which they would.
+struct SlowJoints {
+  std::vector<std::size_t> joints;
+  double longest = 0;  // [s]
+};
+
+// All in one note, as there may be many. `damped`: it is their damping, rather than the inertia of what they carry, that lets them follow slowly.
 template <class S>
-void note_slow_joints(const BasicSystem<S>& system, const std::vector<std::size_t>& slow, double longest, std::vector<std::string>& notes) {
+void note_slow_joints(const BasicSystem<S>& system, const SlowJoints& slow, bool damped, std::vector<std::string>& notes) {
+  if (slow.joints.empty()) return;
+  const bool one = slow.joints.size() == 1;
   constexpr std::size_t kNamed = 6;  // upper limit on the joints named
   std::string names;
-  for (std::size_t i = 0; i < std::min(slow.size(), kNamed); ++i) {
-    const BasicJointData<S>& joint = system.joints[slow[i]];
+  for (std::size_t i = 0; i < std::min(slow.joints.size(), kNamed); ++i) {
+    const BasicJointData<S>& joint = system.joints[slow.joints[i]];
     names += fmt::format("{}{} {}", i == 0 ? "" : ", ", joint.servo < 0 ? "joint" : "motor", joint.name);
   }
-  if (slow.size() > kNamed) names += fmt::format(" and {} more", slow.size() - kNamed);
-  notes.push_back(fmt::format("{}: damping lets {} follow {} load only within {:.3g} s, and at the start the load changes faster; {} at the deflection that carries the load, and the movement that follows is physical, not an error of the start",
-                              names, slow.size() == 1 ? "it" : "them", slow.size() == 1 ? "its" : "their", longest, slow.size() == 1 ? "it begins" : "they begin"));
+  if (slow.joints.size() > kNamed) names += fmt::format(" and {} more", slow.joints.size() - kNamed);
+  notes.push_back(fmt::format("{}: {} {} follow {} load only within {:.3g} s, and at the start the load changes faster; {} at the deflection that carries the load, and the {} that follows is physical, not an error of the start",
+                              names, damped ? "damping lets" : "the inertia of what moves lets", one ? "it" : "them", one ? "its" : "their", slow.longest, one ? "it begins" : "they begin", damped ? "movement" : "vibration"));
 }
 
 // Notes which joints start on a motion of their own. True if there are none.
 template <class S>
 bool note_resolved_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, const BasicSoftStart<S>& soft, std::vector<std::string>& notes) {
-  std::vector<std::size_t> slow;
-  double longest = 0;  // longest of the times in which they follow their load [s]
+  SlowJoints damped, vibrating;
   for (std::size_t j = 0; j < soft.share.size(); ++j) {
     Eigen::Index slowest = 0;
     const double share = soft.share[j].minCoeff(&slowest);
     if (share > kEntirely) continue;
-    slow.push_back(j);
-    longest = std::max(longest, 1 / time_scales.slow_rate[j][slowest]);
+    SlowJoints& slow = time_scales.overdamped[j][slowest] > 0 ? damped : vibrating;
+    slow.joints.push_back(j);
+    slow.longest = std::max(slow.longest, 1 / time_scales.slow_rate[j][slowest]);
   }
-  if (!slow.empty()) note_slow_joints(system, slow, longest, notes);
-  return slow.empty();
+  note_slow_joints(system, damped, true, notes);
+  note_slow_joints(system, vibrating, false, notes);
+  return damped.joints.empty() && vibrating.joints.empty();
 }
 
 // theory/assembly section 5: soft joints first, then the others around them.
@@ -168,9 +177,9 @@ void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& 
   if (!soft.placed || !fits || !converged) start.notes.push_back(kNotSettled);
 }
 
-// The largest force that accelerates a body, as a fraction of the largest force of a joint.
+// The largest force that accelerates a body [N]; a couple counts as a force at the body's radius of gyration.
 template <class S>
-double unbalanced_part(const BasicSystem<S>& system, const BasicState<S>& state) {
+double largest_unbalanced(const BasicSystem<S>& system, const BasicState<S>& state) {
   double largest = 0;
   for (std::size_t i = 0; i < state.a.size(); ++i) {
     const typename S::Vec unbalanced = system.bodies[i].mass.cwiseProduct(state.a[i]);
@@ -178,7 +187,13 @@ double unbalanced_part(const BasicSystem<S>& system, const BasicState<S>& state)
     if (!std::isfinite(force)) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, force);
   }
-  return largest > 0 ? largest / std::max(largest_force(state.force), 1e-300) : 0;
+  return largest;
+}
+
+// What the rounding of the positions makes of the force of the stiffest joint [N]: all that acts on bodies without loads.
+template <class S>
+double rounding_of_forces(const BasicSystem<S>& system, const BasicState<S>& state) {
+  return kLastBits * largest_coordinate(state.q) * largest_stiffness(system);
 }
 
 // Whether loads and targets do not change for the time `span`, as far as they depend on time alone.
@@ -228,7 +243,8 @@ void settle(const BasicSystem<S>& system, double duration, double known_span, Ba
 
 template <class S>
 bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
-  return 2 * system.kinetic(state.v) <= kFits * twice_stored(state) && unbalanced_part(system, state) <= kBalanced;
+  return 2 * system.kinetic(state.v) <= kFits * twice_stored(state) &&
+         largest_unbalanced(system, state) <= std::max(kBalanced * largest_force(state.force), rounding_of_forces(system, state));
 }
 
 template <class S>

@@ -17,6 +17,7 @@ namespace pintle {
 namespace {
 
 constexpr double kBeyond = 2;         // as a multiple of the error estimates: larger differences are physical
+constexpr double kSameMotion = 0.01;  // fraction of its range by which a coordinate may differ between two runs of one motion: what joints of usual stiffness yield
 constexpr int kMostDigits = 15;
 
 // The columns of one quantity: components whose differences are combined.
@@ -85,9 +86,9 @@ void relate(std::vector<Difference>& list, double part) {
 }
 
 Cause cause_of(double difference, double error_estimate, const LoadSummary& a, const LoadSummary& b) {
+  if (difference <= kBeyond * error_estimate) return Cause::kNumerical;
   if (!a.unique || !b.unique) return Cause::kNotUnique;
-  if (std::isnan(error_estimate)) return Cause::kNoEstimate;
-  return difference <= kBeyond * error_estimate ? Cause::kNumerical : Cause::kPhysical;
+  return std::isnan(error_estimate) ? Cause::kNoEstimate : Cause::kPhysical;
 }
 
 // `error`: of a force or of a couple.
@@ -128,6 +129,14 @@ void add_coordinates(Comparison& c, const std::vector<std::pair<std::size_t, std
     if (is_coordinate(column.name) && add_column(c, column.name, quantity)) c.coordinates.push_back(measure(c, quantity, rows));
   }
   relate(c.coordinates, 1);  // the scale of coordinates at rest is the largest moving one
+}
+
+// Where the runs move differently, as where one of them has no friction, loads differ for that reason, whatever ideal joints leave undetermined.
+void judge_by_motion(Comparison& c) {
+  if (std::none_of(c.coordinates.begin(), c.coordinates.end(), [](const Difference& d) { return d.relative > kSameMotion; })) return;
+  for (std::vector<Difference>* list : {&c.forces, &c.couples})
+    for (Difference& d : *list)
+      if (d.cause == Cause::kNotUnique) d.cause = Cause::kPhysical;
 }
 
 void find_softness(const Model& model, Comparison& c) {
@@ -201,6 +210,7 @@ Comparison compare(const Model& model, Trajectory first, Trajectory second, Equa
   const auto rows = common_rows(c.first, c.second, c.until);
   add_joints(c, rows);
   add_coordinates(c, rows);
+  judge_by_motion(c);
   find_softness(model, c);
   return c;
 }

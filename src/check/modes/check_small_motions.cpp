@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "integrators/general/first_order_ode.h"
+#include "integrators/general/motion_jacobian.h"
 #include "linalg/dense_factors.h"
 #include "start/start.h"
 
@@ -17,25 +17,6 @@ constexpr int kMostUnknowns = 400;  // positions, velocities and states of laws:
 // Of the fastest motion: slower ones are not told from free motions. Their eigenvalue 0 is a double one, of which rounding makes the root of the machine precision: up to 1.9e-8
 // in the collection (stick_slip). The slowest swing of a chain of 10 bars on pins of 1e11 N/m is at 3.8e-7.
 constexpr double kResolved = 1e-7;
-
-// The Jacobian of (M^1/2 q, M^1/2 v / w, z), with w the fastest undamped frequency of a body alone: its rows and columns are of one size.
-Eigen::MatrixXd scaled_jacobian(const System& system, const State& at) {
-  FirstOrderOde ode(system, FirstOrderOde::Energies::kLeftOut);
-  std::vector<double> y(static_cast<std::size_t>(ode.size()));
-  ode.flatten(at, y.data());
-  ode.linearize(at.t, y.data());
-  const int half = ode.motion_size() / 2;
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(ode.size(), ode.size());
-  A.block(0, half, half, half).setIdentity();
-  ode.for_each_block([&A](int row, int column, const auto& block) { A.block(row, column, block.rows(), block.cols()) = block; });
-  const double w = std::sqrt(std::max(A.block(half, 0, half, half).diagonal().cwiseAbs().maxCoeff(), 1.0));
-  Eigen::VectorXd scale = Eigen::VectorXd::Ones(ode.size());
-  for (int i = 0; i < system.n_bodies(); ++i) {
-    scale.segment<3>(3 * i) = system.bodies[i].mass.cwiseSqrt();
-    scale.segment<3>(half + 3 * i) = scale.segment<3>(3 * i) / w;
-  }
-  return scale.asDiagonal() * A * scale.cwiseInverse().asDiagonal();
-}
 
 CheckSmallMotion small_motion(const System& system, std::complex<double> lambda, const Eigen::VectorXcd& shape) {
   CheckSmallMotion out;
@@ -54,8 +35,8 @@ CheckSmallMotion small_motion(const System& system, std::complex<double> lambda,
 
 std::string why_not(const System& system, const State& start) {
   if (std::any_of(system.joints.begin(), system.joints.end(), [](const JointData& joint) { return joint.ideal; })) return "they are known for joints that are force laws, not for ideal ones";
-  if (6 * system.n_bodies() + system.n_law_states() > kMostUnknowns) return fmt::format("not searched for in a mechanism with more than {} positions, velocities and states", kMostUnknowns);
-  if (!is_at_rest(system, start)) return "the mechanism does not rest at its start; with start = \"settled\" it is examined where it comes to rest";
+  if (motion_unknowns(system) > kMostUnknowns) return fmt::format("not searched for in a mechanism with more than {} positions, velocities and states", kMostUnknowns);
+  if (!is_at_rest(system, start)) return "the mechanism does not rest at its start, or something drives it there; without motion and drives, start = \"settled\" lets it come to rest first";
   return "";
 }
 
@@ -65,7 +46,7 @@ CheckSmallMotions check_small_motions(const System& system, const State& start) 
   CheckSmallMotions out;
   out.remark = why_not(system, start);
   GeneralEigen eigen;
-  if (!out.remark.empty() || !eigen.compute(scaled_jacobian(system, start))) return out;
+  if (!out.remark.empty() || !eigen.compute(motion_jacobian(system, start))) return out;
   out.known = true;
   out.resolved = kResolved * eigen.eigenvalues().cwiseAbs().maxCoeff();
   int n_slow = 0;

@@ -18,6 +18,15 @@ double curvature(double x0, double y0, double x1, double y1, double x2, double y
   return ((y2 - y1) / (x2 - x1) - (y1 - y0) / (x1 - x0)) / (x2 - x0);
 }
 
+// Where the lines through two samples before an interval and two after it, of values of the same sign, meet inside it beyond zero; 0: nowhere. A convex function lies above both: this finds
+// the bottom of one with a corner, as that of the magnitude of a force that nearly vanishes, which no parabola follows.
+double corner(double before, double y_before, double left, double y0, double right, double y1, double beyond, double y_beyond) {
+  const double fall = (y0 - y_before) / (left - before), rise = (y_beyond - y1) / (beyond - right), width = right - left;
+  if (!(fall < 0 && rise > 0)) return 0;
+  const double inside = (y0 - y1 + rise * width) / (rise - fall);
+  return inside > kInside * width && inside < (1 - kInside) * width && y0 + fall * inside <= 0 ? inside : 0;
+}
+
 }  // namespace
 
 EventSearch::EventSearch(const std::vector<SwitchingFunction>& functions)
@@ -46,7 +55,7 @@ bool EventSearch::has_event(const Sample& from, const Sample& to) const {
 
 // The first point between two samples where a function with the same sign at both may reach zero; 0: there is none. It is the
 // extremum of a parabola through both, theory/time Eq. (7.3). Its position follows from the mean of the curvatures given by
-// the neighbouring samples, its depth from the larger curvature and their difference.
+// the neighbouring samples, its depth from the larger curvature and their difference. Or it is a corner.
 double EventSearch::extremum(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond) const {
   const double width = right.share - left.share;
   double first = right.share;
@@ -54,6 +63,8 @@ double EventSearch::extremum(const Sample* before, const Sample& left, const Sam
     const bool positive = left.value[f] > 0;
     if ((right.value[f] > 0) != positive) continue;
     const double sign = positive ? 1 : -1, y0 = sign * left.value[f], y1 = sign * right.value[f], slope = (y1 - y0) / width;
+    if (before && beyond)
+      if (const double at = corner(before->share, sign * before->value[f], left.share, y0, right.share, y1, beyond->share, sign * beyond->value[f]); at > 0) first = std::min(first, left.share + at);
     const auto curved = [&](const Sample& beside) { return curvature(left.share, y0, right.share, y1, beside.share, sign * beside.value[f]); };
     const double c0 = curved(before ? *before : *beyond), c1 = curved(beyond ? *beyond : *before), mean = 0.5 * (c0 + c1);
     const double largest = (1 + kUnsure) * std::max(c0, c1) + std::abs(c0 - c1);

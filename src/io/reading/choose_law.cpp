@@ -131,7 +131,7 @@ class LawChange {
       complaints_.add(spot(piece.at), "joint." + name_, in_quotes(piece.key), "a key of a law has a value", (piece.key.empty() ? "key" : piece.key) + "=1");
       return;
     }
-    if (law_ != nullptr && !has_key(law_, piece.key)) {
+    if (law_ != nullptr && !has_key(law_, piece.key) && piece.key != key_of(LawRole::kFriction)) {  // the law beside which friction stands may not allow it
       std::vector<std::string> keys;
       for (const KeyInfo& info : law_->keys) keys.emplace_back(info.key);
       complaints_.add(spot(piece.at), "joint." + name_ + "." + piece.key, in_quotes(piece.key), "the law " + word_ + " has no such key", complaints_.did_you_mean(piece.key, keys));

@@ -37,8 +37,11 @@ std::string names(const std::vector<std::string>& list, bool all) {
   return text;
 }
 
+// `what`: one of them; its plural ends in -s.
 std::string more(std::size_t total, std::size_t shown, const char* what) {
-  return shown < total ? fmt::format("  and {} more {} (--details lists them)\n", total - shown, what) : "";
+  if (shown >= total) return "";
+  const bool one = total - shown == 1;
+  return fmt::format("  and {} more {}{} (--details lists {})\n", total - shown, what, one ? "" : "s", one ? "it" : "them");
 }
 
 std::string heading(const CheckReport& r, const std::string& title, const Look& look) {
@@ -86,7 +89,7 @@ std::string redundancy_section(const CheckReport& report, const Look& look) {
                             : fmt::format("{}.{}", m.joint, m.component));
     text += fmt::format("  {} among {}\n", counted(group.degree, "redundant constraint", "redundant constraints"), names(members, look.details));
   }
-  text += more(report.redundancies.size(), shown, "groups");
+  text += more(report.redundancies.size(), shown, "group");
   return text +
          "  They can load each other: stiffness and misfit decide how much. Ideal joints leave the load sharing undetermined.\n";
 }
@@ -97,7 +100,7 @@ std::string loop_section(const CheckTopology& t, const Look& look) {
   const std::size_t shown = look.details ? t.loops.size() : std::min(kMaxLoops, t.loops.size());
   for (std::size_t i = 0; i < shown; ++i)
     text += fmt::format("  {}  {}\n", i + 1, names(t.loops[i].joints, look.details));
-  text += more(static_cast<std::size_t>(t.n_loops), shown, "loops");
+  text += more(static_cast<std::size_t>(t.n_loops), shown, "loop");
   for (const auto& group : t.floating)
     text += fmt::format("  not connected to the ground by joints: {}\n", names(group, look.details));
   return text;
@@ -185,7 +188,7 @@ std::string small_motion_section(const CheckSmallMotions& s, const Look& look) {
   }
   text += " (with all forces, and the coordinate that moves most)\n";
   if (!table.empty()) text += table.text(look.bold, look.plain);
-  text += more(s.modes.size(), shown, "faster ones");
+  text += more(s.modes.size(), shown, "faster one");
   if (s.n_free > 0) text += fmt::format("  {} free, or slower than {} rad/s\n", counted(s.n_free, "motion is", "motions are"), engineering(s.resolved));
   if (grows) text += fmt::format("  {}The position is unstable{}: a disturbance grows by a factor of e in the time constant.\n", look.warn, look.plain);
   return text;
@@ -203,7 +206,7 @@ std::string component_section(const CheckFrequencies& f, const Look& look) {
                    engineering(c.damping_ratio), engineering(c.stiffness), engineering(c.effective_mass)});
   }
   return fmt::format("\n{}Each joint alone{}\n{}", look.bold, look.plain, table.text(look.bold, look.plain)) +
-         more(f.components.size(), shown, "components");
+         more(f.components.size(), shown, "component");
 }
 
 std::string battery_section(const char* title, const CheckBattery& battery, const Look& look) {

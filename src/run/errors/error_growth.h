@@ -27,6 +27,12 @@ ErrorGrowth fit_growth(const DifferenceCurve& curve);
 /// saturation. The line's level is meaningless. theory/time Eqs. (6.5)-(6.7).
 ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve);
 
+/// The growth of the difference of two passes; nothing if they come within `promised` of the tolerance again towards their end. Once an impact differs in time by more than its duration,
+/// the forces of two passes differ there by the whole force, and by little between impacts. Differences of positions grow steadily instead: the line is fitted to these and shifted to
+/// where the forces reach the tolerance. theory/time section 6.1.
+template <class S>
+ErrorGrowth growth_between(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, bool of_motion, double tolerance, double promised);
+
 /// Whether two fits, from pairs of passes with different tolerances, show the same growth: a smaller tolerance then shifts the curve in
 /// time by a fixed amount. A power of time would be stretched instead. theory/time Eq. (6.8).
 bool same_growth(const ErrorGrowth& first, const ErrorGrowth& second);

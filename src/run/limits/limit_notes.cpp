@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -138,6 +139,10 @@ Vecs places(const std::vector<Planar::Motion>& m) {
   return q;
 }
 
+bool has_redundant_rows(const System& system) {
+  return std::any_of(system.joints.begin(), system.joints.end(), [](const JointData& joint) { return joint.ideal && std::ranges::any_of(joint.redundant, std::identity{}); });
+}
+
 // Looks where the drive's effort was largest, and where the run ended. If the run could not continue, also a little later, and from its start
 // too: the last positions may no longer be those of a mechanism.
 std::optional<Finding> look_at(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run, const Vecs& last, const DrivePeak<Planar>& peak) {
@@ -146,7 +151,7 @@ std::optional<Finding> look_at(const System& system, const State& start, const S
     if (auto limit = found(peak.q, peak.t_seen)) return Finding{peak, *limit, peak.t_seen, true, true};
   if (auto limit = found(last, run.t_end)) return Finding{peak, *limit, run.t_end, true, true};
   const bool stopped = run.outcome == Outcome::kFailed || run.outcome == Outcome::kRunaway || run.outcome == Outcome::kEnergyOpen;
-  if (stopped)
+  if (stopped && !has_redundant_rows(system))  // a row left out counts as free, and the drive would be found at a limit that it does not have
     for (const Vecs* from : {&last, &start.q})
       if (auto limit = found(*from, run.t_end + kLittle * settings.duration)) return Finding{peak, *limit, run.t_end, false, true};
   return std::nullopt;
