@@ -213,6 +213,23 @@ TEST(StickSlip, ThePeakOfAFrictionThatJumpsIsOnOneOfItsSides) {
   }
 }
 
+// A pin whose normal force all but vanishes for a microsecond slips there, although it is stuck on both sides. The slip was missed, and friction then drove the joint.
+TEST(StickSlip, ASlipWhereTheNormalForceAllButVanishesIsFound) {
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    Model model = reference::test_model("arm_with_rubbing_pins");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = completed(model);
+    const auto wrist = std::find_if(run.events.begin(), run.events.end(), [](const JointEvents& events) { return events.joint == "w"; });
+    ASSERT_NE(wrist, run.events.end());
+    ASSERT_GE(wrist->events.size(), 4u);
+    EXPECT_NEAR(wrist->events[2].t, 0.00179292, 1e-7) << tolerance;
+    for (std::size_t row = 0; row < run.n_rows(); ++row) {
+      const bool slips = reference::value(run, row, "joint.w.stuck") == 0;
+      EXPECT_GE(slips ? reference::value(run, row, "joint.w.friction_power") : 0, 0) << tolerance << " " << run.at(row, 0);
+    }
+  }
+}
+
 // Vibrations that friction makes grow were damped by steps longer than they are: all passes agreed on a peak that was 9 % too small.
 TEST(StickSlip, AVibrationThatFrictionMakesGrowIsFollowed) {
   const auto run = [](double tolerance) {

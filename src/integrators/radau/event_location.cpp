@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kHalvings = 46;     // halvings of an interval between two samples that give the resolution of an event
 constexpr double kInside = 1e-6;  // fraction of an interval: an extremum this close to its end is taken to be the end
-constexpr double kUnsure = 0.1;   // fraction of a parabola's curvature: the error that two estimates may have even if they agree
+constexpr double kUnsure = 0.1;   // fraction of a parabola's curvature, the error that two estimates may have even if they agree; or of the values beside a corner, the height at which it is still looked at
 constexpr int kSecants = 16;      // secant steps before the search continues by bisection
 
 // Second divided difference over three points.
@@ -18,13 +18,25 @@ double curvature(double x0, double y0, double x1, double y1, double x2, double y
   return ((y2 - y1) / (x2 - x1) - (y1 - y0) / (x1 - x0)) / (x2 - x0);
 }
 
-// Where the lines through two samples before an interval and two after it, of values of the same sign, meet inside it beyond zero; 0: nowhere. A convex function lies above both: this finds
-// the bottom of one with a corner, as that of the magnitude of a force that nearly vanishes, which no parabola follows.
-double corner(double before, double y_before, double left, double y0, double right, double y1, double beyond, double y_beyond) {
-  const double fall = (y0 - y_before) / (left - before), rise = (y_beyond - y1) / (beyond - right), width = right - left;
-  if (!(fall < 0 && rise > 0)) return 0;
-  const double inside = (y0 - y1 + rise * width) / (rise - fall);
-  return inside > kInside * width && inside < (1 - kInside) * width && y0 + fall * inside <= 0 ? inside : 0;
+// A sample of one function, its value taken as positive.
+struct Point {
+  double x, y;
+};
+
+// Where the lines through two samples before an interval and two after it meet inside it, near zero or beyond; 0: nowhere. A convex function lies above both: this finds the bottom of one
+// with a corner, as that of the magnitude of a force that nearly vanishes, which no parabola follows. In the first or the last interval of a step, where its one line reaches zero.
+double corner(const Point* before, Point left, Point right, const Point* beyond) {
+  const double width = right.x - left.x;
+  const double fall = before ? (left.y - before->y) / (left.x - before->x) : 0, rise = beyond ? (beyond->y - right.y) / (beyond->x - right.x) : 0;
+  double inside = 0, bottom = 0;
+  if (before && beyond) {
+    if (!(fall < 0 && rise > 0)) return 0;
+    inside = (left.y - right.y + rise * width) / (rise - fall);
+    bottom = left.y + fall * inside;
+  } else if (before ? fall < 0 : rise > 0) {
+    inside = before ? -left.y / fall : width - right.y / rise;
+  }
+  return inside > kInside * width && inside < (1 - kInside) * width && bottom <= kUnsure * std::max(left.y, right.y) ? inside : 0;
 }
 
 }  // namespace
@@ -63,15 +75,17 @@ double EventSearch::extremum(const Sample* before, const Sample& left, const Sam
     const bool positive = left.value[f] > 0;
     if ((right.value[f] > 0) != positive) continue;
     const double sign = positive ? 1 : -1, y0 = sign * left.value[f], y1 = sign * right.value[f], slope = (y1 - y0) / width;
-    if (before && beyond)
-      if (const double at = corner(before->share, sign * before->value[f], left.share, y0, right.share, y1, beyond->share, sign * beyond->value[f]); at > 0) first = std::min(first, left.share + at);
     const auto curved = [&](const Sample& beside) { return curvature(left.share, y0, right.share, y1, beside.share, sign * beside.value[f]); };
     const double c0 = curved(before ? *before : *beyond), c1 = curved(beyond ? *beyond : *before), mean = 0.5 * (c0 + c1);
     const double largest = (1 + kUnsure) * std::max(c0, c1) + std::abs(c0 - c1);
-    if (!(mean > 0)) continue;
-    const double inside = 0.5 * width - 0.5 * slope / mean;
-    if (!(inside > kInside * width && inside < (1 - kInside) * width)) continue;
-    if (y0 + slope * inside - largest * inside * (width - inside) > 0) continue;
+    double inside = 0.5 * width - 0.5 * slope / mean;
+    const bool is_parabola = mean > 0 && inside > kInside * width && inside < (1 - kInside) * width && y0 + slope * inside - largest * inside * (width - inside) <= 0;
+    if (!is_parabola) {
+      const auto point = [&](const Sample& at) { return Point{at.share, sign * at.value[f]}; };
+      const Point first_beside = point(before ? *before : left), last_beside = point(beyond ? *beyond : right);
+      inside = corner(before ? &first_beside : nullptr, point(left), point(right), beyond ? &last_beside : nullptr);
+    }
+    if (!(inside > 0)) continue;
     first = std::min(first, left.share + inside);
   }
   return first < right.share ? first : 0;

@@ -84,6 +84,29 @@ TEST(EventSearch, FindsNothingWhereNothingIs) {
   }
 }
 
+// The magnitude of a force that nearly vanishes has a corner. Parabolas do not reach down to it: a joint went on sticking although nothing pressed it any more.
+TEST(EventSearch, FindsACornerBetweenTwoSamples) {
+  int inside = 0, missed = 0;
+  for (const int stages : {3, 5}) {
+    const RadauTable& table = RadauTable::of(stages);
+    for (double at = 0.5 * (table.nodes[1] + table.nodes[2]); at < 0.5 * (table.nodes[table.n - 1] + 1); at += 0.0137) {
+      const double half = 4e-3;  // where the magnitude of (x - at, 2e-3) is less than 4.5e-3
+      bool sampled = false;
+      for (int i = 0; i <= table.n; ++i) {
+        const double node = table.nodes[i], middle = i < table.n ? 0.5 * (node + table.nodes[i + 1]) : node;
+        sampled = sampled || std::abs(node - at) < 2 * half || std::abs(middle - at) < 2 * half;
+      }
+      if (sampled) continue;
+      ++inside;
+      const Found found = search({[at](double x) { return std::hypot((x - at) * (1 + 0.1 * (x - at)), 2e-3) - std::hypot(2e-3, 4e-3); }}, {}, stages);
+      if (found.event.function < 0) ++missed;
+      EXPECT_LE(found.evaluations, 24) << at;
+    }
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_LE(10 * missed, inside);  // parabolas find none
+}
+
 // A function that is negative only between two samples, anywhere in the step: all samples have the same sign.
 TEST(EventSearch, FindsAFunctionThatIsLeftAndEnteredAgainBetweenTwoSamples) {
   for (const int stages : {3, 5}) {
