@@ -230,7 +230,7 @@ class Passes {
       return at(kRepeated * tolerance);
     }
     const double enough = tolerance < kFinest ? 1 : has_stuck() && tolerance > kNearRounding ? kPromisedStuck : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance; 1 where finer passes find roundoff
-    if (std::exchange(follows_first_, false)) note_on_instability(error_ > wanted);
+    if (std::exchange(follows_first_, false) && error_ > wanted) note_on_instability(true);
     if (error_ <= enough * wanted) {
       if (follow_instability()) return at(tolerance);
       // If the passes took nearly the same steps again, the tolerance does not limit them, and that the passes agree is little evidence.
@@ -264,13 +264,11 @@ class Passes {
     const double step = longest_following_step(*suppressed_);
     follows_first_ = settings_.duration < kMostFollowed * step;
     if (follows_first_) longest_ = step;
-    else note_on_instability(true);
+    else note_on_instability(false);
     return follows_first_;
   }
 
-  void note_on_instability(bool matters) {
-    if (matters) out_.notes.push_back(note_on_suppressed(*suppressed_, settings_.duration, longest_ > 0));
-  }
+  void note_on_instability(bool followed) { out_.notes.push_back(note_on_suppressed(*suppressed_, settings_.duration, followed)); }
 
   // Whether surfaces have come to rest. The force they lock in depends on how they did.
   bool has_stuck() const {

@@ -46,7 +46,7 @@ std::string note_on_suppressed(const SuppressedMode& mode, double duration, bool
   const double step = longest_following_step(mode);
   return fmt::format("forces that depend on the motion, such as friction, make a vibration of {:.3g} Hz grow from about t = {:.3g} s, by a factor e in {:.2g} s: {}", mode.frequency / kTurn, mode.from, 1 / mode.rate,
                      followed ? "steps were made short enough to follow it"
-                              : fmt::format("steps that follow it would be {:.0g}, and those of this run damp it, which the stated errors do not include. max_step = \"{:.1g} s\" follows it", duration / step, step));
+                              : fmt::format("following it would take {:.1g} steps. Those of this run damp it, which the stated errors do not include; max_step = \"{:.1g} s\" follows it", duration / step, step));
 }
 
 template <class S>
