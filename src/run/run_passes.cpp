@@ -72,9 +72,9 @@ class Passes {
     if (p.scale) energy.expect(turnover_);
     p.energy = &energy;
     BasicRingingLoss<S> ringing = fine_ringing_;
-    ringing.start_again();
+    ringing.reset();
     if (context_.shape.checked) p.ringing = &ringing;  // otherwise no error is stated
-    instability_.start_again();
+    instability_.reset();
     if (context_.shape.checked && choice_.equations == Equations::kNewtonian) p.instability = &instability_;
     BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
     count(done.counters);
@@ -259,7 +259,7 @@ class Passes {
   // Whether the next pass follows a vibration that the accepted one has damped although it grows; its steps are short then. Asked once.
   bool follow_instability() {
     if (suppressed_) return false;
-    suppressed_ = instability_.find();
+    suppressed_ = instability_.growing_mode();
     if (!suppressed_) return false;
     const double step = longest_following_step(*suppressed_);
     follows_first_ = settings_.duration < kMostFollowed * step;

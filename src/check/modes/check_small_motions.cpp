@@ -14,9 +14,6 @@ namespace pintle {
 namespace {
 
 constexpr int kMostUnknowns = 400;  // positions, velocities and states of laws: a check of a hanging chain with so many takes 0.2 s, and the time grows with their cube
-// Of the fastest motion: slower ones are not told from free motions. Their eigenvalue 0 is a double one, of which rounding makes the root of the machine precision: up to 1.9e-8
-// in the collection (stick_slip). The slowest swing of a chain of 10 bars on pins of 1e11 N/m is at 3.8e-7.
-constexpr double kResolved = 1e-7;
 
 CheckSmallMotion small_motion(const System& system, std::complex<double> lambda, const Eigen::VectorXcd& shape) {
   CheckSmallMotion out;
@@ -48,7 +45,7 @@ CheckSmallMotions check_small_motions(const System& system, const State& start) 
   GeneralEigen eigen;
   if (!out.remark.empty() || !eigen.compute(motion_jacobian(system, start))) return out;
   out.known = true;
-  out.resolved = kResolved * eigen.eigenvalues().cwiseAbs().maxCoeff();
+  out.resolved = kResolvedEigenvalue * eigen.eigenvalues().cwiseAbs().maxCoeff();
   int n_slow = 0;
   for (Eigen::Index i = 0; i < eigen.eigenvalues().size(); ++i) {
     const std::complex<double> lambda = eigen.eigenvalues()[i];

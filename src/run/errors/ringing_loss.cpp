@@ -15,11 +15,11 @@ namespace pintle {
 template <class S>
 BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start, const VecsOf<S>* effective_mass)
     : system_(&system), start_(&start), known_mass_(effective_mass) {
-  start_again();
+  reset();
 }
 
 template <class S>
-void BasicRingingLoss<S>::start_again() {
+void BasicRingingLoss<S>::reset() {
   lost_.assign(system_->joints.size(), S::Vec::Zero());
   most_lost_ = lost_;
   n_steps_ = 0;

@@ -16,7 +16,7 @@ class BasicRingingLoss {
   /// For a run from `start`, with the masses BasicEffectiveMasses::closed at the start if they are known; all must outlive this object.
   BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start, const VecsOf<S>* effective_mass = nullptr);
   /// Call before another pass.
-  void start_again();
+  void reset();
 
   /// Call after a step of h seconds.
   void see_step(const BasicStepNodes<S>& nodes, double h);

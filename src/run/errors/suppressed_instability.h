@@ -28,11 +28,11 @@ class BasicSuppressedInstability {
   /// Watches runs of this duration [s] if a force of the system may feed vibrations.
   BasicSuppressedInstability(const BasicSystem<S>& system, double duration);
   /// Call before another pass.
-  void start_again();
+  void reset();
   /// Call after a step of h seconds that ended in `now`, by Radau IIA with so many stages.
   void see_step(const BasicState<S>& now, double h, int stages);
-  /// The mode that would have grown fastest, if some would have grown visibly during the pass.
-  std::optional<SuppressedMode> find() const;
+  /// The mode that would have grown fastest, if some would have grown by more than a factor of e during the pass.
+  std::optional<SuppressedMode> growing_mode() const;
 
  private:
   // The longest step in a part of the run.
@@ -42,7 +42,7 @@ class BasicSuppressedInstability {
     int stages = 0;
   };
   // The rate and the eigenvalue's size of the mode that grows fastest although the step damps it; a rate of 0: there is none.
-  SuppressedMode fastest_at(const Look& look) const;
+  SuppressedMode fastest_suppressed_mode(const Look& look) const;
 
   const BasicSystem<S>* system_;
   double part_ = 0;          // length of a part of the run [s]
